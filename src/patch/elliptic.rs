@@ -38,15 +38,15 @@ pub fn first_kind(complement: f64) -> f64 {
     complete(complement, 1.0, 1.0)
 }
 
-/// Complete elliptic integral of the second kind, `E(k) = ∫₀^{π/2} √(1 − k² sin²φ) dφ`, of `complement = 1 − k²`.
-pub fn second_kind(complement: f64) -> f64 {
-    complete(complement, 1.0, complement)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::f64::consts::PI;
+
+    /// Integral of the second kind `E(k)`, of `complement = 1 − k²`.
+    fn second_kind(complement: f64) -> f64 {
+        complete(complement, 1.0, complement)
+    }
 
     fn close(found: f64, exact: f64) {
         assert!((found / exact - 1.0).abs() < 2e-15, "{found} for {exact}");

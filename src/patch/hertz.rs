@@ -61,12 +61,6 @@ impl Hertz {
         self.aspect
     }
 
-    /// Half `κ_n` \[m²/N] of the factor of a plane kernel `2κ_n ln(L/|x − s|)` with which a line of half-length `a` and
-    /// pressure `p₀ √(1 − x²/a²)` on the radius `R` fits this ellipse: `κ_n = a/(2πR p₀)`, equal for all loads.
-    pub fn line_kernel(&self) -> f64 {
-        self.curvature / (PI * self.modulus)
-    }
-
     /// Ellipse under a load \[N]; zeros without a load.
     pub fn under(&self, load: f64) -> Ellipse {
         if load <= 0.0 {
@@ -77,13 +71,6 @@ impl Hertz {
         let b = a / self.aspect;
         let approach = 0.5 * a * a * self.approach / (self.radius * self.curvature);
         Ellipse { a, b, peak: 0.5 * a * self.modulus / (self.radius * self.curvature), approach }
-    }
-
-    /// Load \[N] that brings the bodies together by `approach` \[m], the inverse of [`Hertz::under`]; 0 without
-    /// contact.
-    pub fn load_at(&self, approach: f64) -> f64 {
-        let square = 2.0 * self.radius * self.curvature * approach.max(0.0) / self.approach;
-        PI * self.modulus * square * square.sqrt() / (3.0 * self.radius * self.aspect * self.curvature)
     }
 }
 
@@ -140,7 +127,6 @@ mod tests {
         close(b, a, 1e-15);
         close(peak, 1.5 * load / (PI * a * a), 2e-15);
         close(approach, a * a / radius, 1e-15);
-        close(hertz.line_kernel(), a / (2.0 * PI * radius * peak), 1e-15);
     }
 
     /// The displacement under the ellipse from Boussinesq's `∫ p/r dA/(πE*)`, in polar coordinates about the point:
@@ -160,7 +146,6 @@ mod tests {
             close(found.b, b, 1e-13);
             close(found.peak, peaks[i], 1e-13);
             close(found.approach, approaches[i], 1e-13);
-            close(hertz.load_at(found.approach), load, 1e-14);
             close(super::approach([a, b], load, steel()), approaches[i], 1e-13);
         }
     }
@@ -201,7 +186,6 @@ mod tests {
         for load in [0.0, -1.0] {
             assert_eq!(hertz.under(load), Ellipse::default());
         }
-        assert_eq!((hertz.load_at(0.0), hertz.load_at(-1e-6)), (0.0, 0.0));
         let [small, large] = [hertz.under(1e3), hertz.under(8e3)];
         close(large.a, 2.0 * small.a, 1e-15);
         close(large.peak, 2.0 * small.peak, 1e-15);

@@ -32,12 +32,10 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
     let traction = &pressed.contact.traction;
     let force = state.resultant().map(|force| force * width);
     let friction_force = state.sum(|line| line.contact.traction.friction_force());
-    let (v, omega) = (state.motion.velocity.now, state.motion.omega.now);
-    let v_c = model.rolling_radius(state) * omega;
-    let [wheel_height, rail_height] = model.contact.surfaces.heights(state.place(model.wheel.radius));
-    let (t_gamma, area) =
-        (per_metre(state.friction_power * width, v, v_c), width * state.sum(|line| line.contact.traction.touching()));
+    let [v, v_c] = speeds(model, state);
     let points = profile_points(model.zone);
+    let others = across::outputs(model, state, surface_outputs(model, state, pressed, others));
+    let others = energy_outputs(model, state, traction.pressure_max, others);
     Outputs {
         contact_force_x: force.travel,
         contact_force_y: force.height,
@@ -57,12 +55,35 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
         contact_impulse: state.pressing.impulse * width,
         contact_lost_time: state.pressing.lost,
         contact_patches: traction.patches.len() as u64,
-        wheel_profile_height: wheel_height,
-        rail_profile_height: rail_height,
         friction: state.friction(),
         contact_tread_slip: state.tread_slip(),
-        wheel_velocity: v,
-        wheel_omega: omega,
+        yielded: state.mean_over_area(|line| line.contact.traction.yielding.share),
+        internal_steps: state.clock.internal_steps,
+        limited_steps: state.clock.limited_steps,
+        iterations: state.clock.iterations,
+        suggested_step: suggested_step(model, state),
+        profile_pressure: sampled(&traction.pressure, &points),
+        profile_shear: sampled(&traction.shear, &points),
+        profile_slip: sampled(&traction.slip, &points),
+        profile_x: points,
+        ..motion_outputs(model, state, others)
+    }
+}
+
+/// Velocity of the hub and peripheral velocity of the wheel [m/s].
+fn speeds(model: &RollingModel, state: &State) -> [f64; 2] {
+    [state.motion.velocity.now, model.rolling_radius(state) * state.motion.omega.now]
+}
+
+/// Outputs about the motion of the wheel and what moves it.
+fn motion_outputs(model: &RollingModel, state: &State, others: Outputs) -> Outputs {
+    let width = model.wheel.width;
+    let [wheel_height, rail_height] = model.contact.surfaces.heights(state.place(model.wheel.radius));
+    Outputs {
+        wheel_profile_height: wheel_height,
+        rail_profile_height: rail_height,
+        wheel_velocity: state.motion.velocity.now,
+        wheel_omega: state.motion.omega.now,
         wheel_distance: state.motion.distance,
         wheel_angle: state.motion.angle,
         wheel_acceleration: state.motion.velocity.rate,
@@ -77,35 +98,34 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
         brake_moment: state.hub.brake.moment * width,
         brake_power: state.hub.brake.power * width,
         brake_locked: state.hub.brake.locked,
-        brake_energy: state.audit.brake * width,
+        ..others
+    }
+}
+
+/// Outputs about energies and powers, and the damage that belongs to them under a largest pressure \[Pa].
+fn energy_outputs(model: &RollingModel, state: &State, pressure_max: f64, others: Outputs) -> Outputs {
+    let (width, audit, force) = (model.wheel.width, &state.audit, state.resultant().map(|f| f * model.wheel.width));
+    let [v, v_c] = speeds(model, state);
+    let t_gamma = per_metre(state.friction_power * width, v, v_c);
+    let area = width * state.sum(|line| line.contact.traction.touching());
+    let adhesion = ratio(force.travel.abs(), force.height);
+    Outputs {
+        brake_energy: audit.brake * width,
         friction_power: state.friction_power * width,
-        hub_work: (state.audit.work - state.audit.gravity) * width,
-        gravity_work: state.audit.gravity * width,
-        lift_work: state.audit.lift * width,
-        thermal_work: state.audit.thermal_work * width,
-        stored_energy: (state.audit.energy - state.audit.initial_energy) * width,
-        friction_energy: state.audit.friction * width,
-        plastic_energy: state.audit.plastic * width,
-        yielded: state.mean_over_area(|line| line.contact.traction.yielding.share),
-        damping_energy: state.audit.damping * width,
+        hub_work: (audit.work - audit.gravity) * width,
+        gravity_work: audit.gravity * width,
+        lift_work: audit.lift * width,
+        thermal_work: audit.thermal_work * width,
+        stored_energy: (audit.energy - audit.initial_energy) * width,
+        friction_energy: audit.friction * width,
+        plastic_energy: audit.plastic * width,
+        damping_energy: audit.damping * width,
+        energy_residual: audit.residual(model.contact.nominal_energy()),
         t_gamma,
-        surface_fatigue: surface_fatigue(
-            ratio(force.travel.abs(), force.height),
-            model.contact.shear_yield,
-            traction.pressure_max,
-        ),
-        wear_rate: WearLaw::from(&model.config).rate(t_gamma, area),
         rail_energy: t_gamma,
-        internal_steps: state.clock.internal_steps,
-        limited_steps: state.clock.limited_steps,
-        iterations: state.clock.iterations,
-        energy_residual: state.audit.residual(model.contact.nominal_energy()),
-        suggested_step: suggested_step(model, state),
-        profile_pressure: sampled(&traction.pressure, &points),
-        profile_shear: sampled(&traction.shear, &points),
-        profile_slip: sampled(&traction.slip, &points),
-        profile_x: points,
-        ..across::outputs(model, state, surface_outputs(model, state, pressed, others))
+        wear_rate: WearLaw::from(&model.config).rate(t_gamma, area),
+        surface_fatigue: surface_fatigue(adhesion, model.contact.shear_yield, pressure_max),
+        ..others
     }
 }
 
@@ -200,7 +220,7 @@ fn flow_outputs(model: &RollingModel, state: &State, others: Outputs) -> Outputs
     let flow = |of: &dyn Fn(&HeatFlows) -> f64| {
         width * state.sum(|line| line.thermal.as_ref().map_or(0.0, |thermal| of(&thermal.flows)))
     };
-    let (v, v_c) = (state.motion.velocity.now, model.rolling_radius(state) * state.motion.omega.now);
+    let [v, v_c] = speeds(model, state);
     let heat_to_rail = flow(&|flows| flows.to_rail);
     let rail_heat = per_metre(heat_to_rail, v, v_c);
     Outputs {

@@ -74,7 +74,7 @@ pub struct ContactLine<'a> {
     pub surface_angle: f64,
     /// Rim angle as an affine function of the forces.
     pub rim: &'a mut RimAngleRow,
-    /// UpwindWeights differences of the slip.
+    /// Upwind differences of the slip.
     pub upwind: &'a mut UpwindRows,
     /// Forces of retarded layers.
     pub retarded: &'a mut Retarded,

@@ -17,7 +17,7 @@ impl ContactLine<'_> {
         std::array::from_fn(|k| ((port + k as isize * step) as usize, weights[k]))
     }
 
-    /// UpwindWeights derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
+    /// Upwind derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
     pub fn stretches(&self, i: usize, row: UpwindWeights, to_right: bool) -> [f64; 2] {
         let [wheel, rail] = &self.traction.surface;
         let (stencil, by_lines) = (self.stencil(i, row, to_right), self.stretch_by_lines(i));

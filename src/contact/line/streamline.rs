@@ -66,7 +66,7 @@ impl UpwindWeights {
     }
 }
 
-/// UpwindWeights differences of a line, and those of the iterate before.
+/// Upwind differences of a line, and those of the iterate before.
 #[derive(Default)]
 pub struct UpwindRows {
     rows: Vec<UpwindWeights>,
