@@ -145,6 +145,18 @@ impl Piecewise {
         self.value.iter_mut().for_each(|v| *v *= factor);
     }
 
+    /// Scales it to the given integral; where it is zero itself, or too small to be scaled, it takes the shape of the
+    /// `fallback`.
+    pub fn scale_to(&mut self, integral: f64, fallback: &Self) {
+        let factor = integral / self.integral();
+        if factor.is_finite() {
+            return self.scale(factor);
+        }
+        self.x.iter().zip(&mut self.value).for_each(|(&x, value)| *value = fallback.at(x));
+        let own = self.integral();
+        self.scale(if own > 0.0 { integral / own } else { 0.0 });
+    }
+
     /// This function times a factor.
     pub fn scaled(mut self, factor: f64) -> Self {
         self.scale(factor);

@@ -9,7 +9,7 @@
 use super::axes::{Axes, Equation};
 use super::fast::LinearSolver;
 use super::linear::{Known, LinearProblem};
-use super::states::{Comparison, guess_state};
+use super::states::{Rules, guess_state};
 use super::unknowns::Unknowns;
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::NodeStatus;
@@ -45,6 +45,20 @@ struct LineBefore {
     height: f64,
 }
 
+impl LineBefore {
+    fn take(&mut self, line: &ContactLine) {
+        self.status.clone_from(&line.state.status);
+        self.port_forces.clone_from(&line.traction.port_forces);
+        self.height = line.traction.rigid.height;
+    }
+
+    fn give_back(&self, line: &mut ContactLine) {
+        line.state.status.clone_from(&self.status);
+        line.traction.port_forces.clone_from(&self.port_forces);
+        line.traction.rigid.height = self.height;
+    }
+}
+
 /// Displacements by forces of one component.
 #[derive(Default)]
 struct Displaced {
@@ -62,7 +76,7 @@ impl Guess {
         &mut self,
         lines: &mut [ContactLine],
         axes: &Axes,
-        comparison: Comparison,
+        rules: &Rules,
         solver: &mut LinearSolver,
         rows: &mut [Vec<f64>],
     ) {
@@ -71,29 +85,7 @@ impl Guess {
             return;
         }
         self.starts.resize_with(lines.len(), LineBefore::default);
-        for (start, line) in self.starts.iter_mut().zip(&*lines) {
-            start.status.clone_from(&line.state.status);
-            start.port_forces.clone_from(&line.traction.port_forces);
-            start.height = line.traction.rigid.height;
-        }
-        if !self.settle(lines, axes, comparison, solver, rows) {
-            for (start, line) in self.starts.iter().zip(lines) {
-                line.state.status.clone_from(&start.status);
-                line.traction.port_forces.clone_from(&start.port_forces);
-                line.traction.rigid.height = start.height;
-            }
-        }
-    }
-
-    /// Guesses until the closed nodes stay; `false` if nothing is closed or they do not.
-    fn settle(
-        &mut self,
-        lines: &mut [ContactLine],
-        axes: &Axes,
-        comparison: Comparison,
-        solver: &mut LinearSolver,
-        rows: &mut [Vec<f64>],
-    ) -> bool {
+        self.starts.iter_mut().zip(&*lines).for_each(|(start, line)| start.take(line));
         lines.iter_mut().for_each(ContactLine::update_rim);
         self.take_shear(lines, axes);
         for _ in 0..MAX_GUESSES {
@@ -101,14 +93,14 @@ impl Guess {
             let problem = LinearProblem { axes, unknowns: &self.unknowns, known: &self.known };
             let pressed = solver.solve(lines, problem, rows).is_ok();
             self.give_shear(lines);
-            if pressed && !self.close(lines, comparison) {
-                return true;
+            if pressed && !self.close(lines, rules) {
+                return;
             }
             if self.unknowns.closed() == 0 {
                 break;
             }
         }
-        false
+        self.starts.iter().zip(lines).for_each(|(start, line)| start.give_back(line));
     }
 
     /// Takes the shear forces, and the gaps under them.
@@ -142,7 +134,7 @@ impl Guess {
     }
 
     /// Opens closed nodes that pull and closes open ones that overlap; returns whether there were any.
-    fn close(&mut self, lines: &mut [ContactLine], comparison: Comparison) -> bool {
+    fn close(&mut self, lines: &mut [ContactLine], rules: &Rules) -> bool {
         let Self { open, forces, gaps, displaced, before, .. } = self;
         take(lines, 1, forces);
         displaced.gaps(lines, 1, forces, gaps);
@@ -151,7 +143,7 @@ impl Guess {
             before.clone_from(&line.state.status);
             for (i, (open, gap)) in open.iter().zip(gaps).enumerate() {
                 let gap = open.constant + open.motions.dot(line.traction.rigid) + *gap;
-                changed |= guess_state(line, i, gap, comparison, before);
+                changed |= guess_state(line, i, gap, rules, before);
             }
         }
         changed

@@ -12,7 +12,7 @@ use super::axes::Axes;
 use super::fast::LinearSolver;
 use super::guess::Guess;
 use super::linear::{Known, LinearProblem};
-use super::states::{self, Comparison, Rules};
+use super::states::{self, Rules};
 use super::unknowns::Unknowns;
 use crate::axes::Axis;
 use crate::contact::error::ContactError;
@@ -141,9 +141,8 @@ impl<'a> ActiveSet<'a> {
     /// Guesses the closed nodes from which the search starts.
     fn guess_closed(&mut self) {
         let SearchMemory { rows, guess, solver, .. } = &mut *self.memory;
-        let tolerance = states::FORCE_TOLERANCE[0] * self.problem.nominal_load / self.grid.len() as f64;
-        let comparison = Comparison { penalty: self.penalties[0], tolerance };
-        guess.find(&mut self.lines, &self.axes, comparison, solver, rows);
+        let rules = Rules::new(&self.lines[0], self.penalties[0], self.problem.nominal_load, 1.0, false);
+        guess.find(&mut self.lines, &self.axes, &rules, solver, rows);
     }
 
     /// Finds the states of all nodes at the present friction coefficients; returns the iterations made.

@@ -107,12 +107,7 @@ impl ContactSolver for ActiveSetSolver {
 
     fn surface_strain(&self, state: &ContactState) -> [Piecewise; 2] {
         let grid = &self.grid;
-        state.traction.surface.each_ref().map(|u| {
-            let strain = |i: usize| {
-                let port = grid.port(i);
-                (u[port + 2] - u[port - 2]) / grid.span(i)
-            };
-            Piecewise { x: grid.x.clone(), value: (0..grid.len()).map(strain).collect() }
-        })
+        let strains = |u| (0..grid.len()).map(|i| grid.slope(u, i, 0)).collect();
+        state.traction.surface.each_ref().map(|u| Piecewise { x: grid.x.clone(), value: strains(u) })
     }
 }

@@ -10,7 +10,7 @@ use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::NodeStatus;
 
 /// Tolerance of nodal forces in mean nodal loads, at first and at most.
-pub(super) const FORCE_TOLERANCE: [f64; 2] = [1e-9, 1e-4];
+const FORCE_TOLERANCE: [f64; 2] = [1e-9, 1e-4];
 /// Tolerance of slip velocities in rolling speeds, at first and at most.
 const SLIP_TOLERANCE: [f64; 2] = [1e-12, 1e-8];
 /// Slip velocity of stuck nodes that is round-off: in rolling speeds \[1], in displacements over the step \[1], and in
@@ -20,19 +20,10 @@ const SLIP_ROUND_OFF: [f64; 3] = [1e-9, 1e-11, 1e-13];
 /// yet.
 const OVERLOAD: f64 = 3.0;
 
-/// Comparison of gaps and forces by which nodes open and close.
-#[derive(Clone, Copy)]
-pub(super) struct Comparison {
-    /// Stiffness that compares gaps with forces [N/m per m].
-    pub penalty: f64,
-    /// Tolerance of nodal forces [N/m].
-    pub tolerance: f64,
-}
-
 /// Rules by which one update of the states goes.
 pub(super) struct Rules {
     /// Stiffness that compares gaps with forces [N/m per m].
-    pub penalty: f64,
+    penalty: f64,
     /// Tolerance of nodal forces [N/m].
     pub force: f64,
     /// Tolerance of slip velocities [m/s].
@@ -129,13 +120,13 @@ pub(super) fn guess_state(
     line: &mut ContactLine,
     i: usize,
     gap: f64,
-    comparison: Comparison,
+    rules: &Rules,
     before: &[NodeStatus],
 ) -> bool {
     let closed = before[i].is_active();
     line.state.gap[i] = if closed { 0.0 } else { gap };
-    let indicator = if closed { line.normal(i) } else { -comparison.penalty * gap };
-    if indicator.abs() <= comparison.tolerance || (indicator > 0.0) == closed {
+    let indicator = if closed { line.normal(i) } else { -rules.penalty * gap };
+    if indicator.abs() <= rules.force || (indicator > 0.0) == closed {
         return false;
     }
     line.state.status[i] = if closed { NodeStatus::Open } else { closing_state(line, i, before) };

@@ -115,14 +115,6 @@ fn share(state: &LineState, upstream_right: bool) -> Option<(f64, f64)> {
     single.then(|| (stuck as f64 / closed.len() as f64, directions.signum()))
 }
 
-/// True if all closed nodes lie beside each other.
-fn is_single(state: &LineState) -> bool {
-    let closed = || state.status.iter().map(|status| status.is_active());
-    let (first, last) = (closed().position(|closed| closed), closed().rposition(|closed| closed));
-    let length = first.zip(last).map_or(0, |(first, last)| last + 1 - first);
-    length > 0 && closed().filter(|closed| *closed).count() == length
-}
-
 /// Tractions at points in the states of the nodes next to them, on a patch with the given pressure.
 fn on_points(
     constants: &Constants,
@@ -163,9 +155,6 @@ pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &Contac
         return None;
     }
     let upstream_right = traction.rigid.travel >= 0.0;
-    if !is_single(state) {
-        return None;
-    }
     let (centre, half_width) = (edges.middle(), edges.half_length());
     let mut pressure = Arch { centre, half_width, count: PRESSURE, ..Arch::default() };
     pressure.terms[0] = 2.0 * load / (PI * half_width);

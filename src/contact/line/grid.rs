@@ -1,5 +1,7 @@
 //! Surface nodes at which contact is looked for.
 
+use nalgebra::DVector;
+
 /// Relative deviation within which a cell counts as one of the uniform ones: round-off of the positions.
 const ROUND_OFF: f64 = 1e-9;
 
@@ -71,6 +73,12 @@ impl ContactGrid {
     pub fn span(&self, i: usize) -> f64 {
         let node = i + self.guard;
         self.cells[node - 1] + self.cells[node]
+    }
+
+    /// Slope at candidate `i` of a displacement of the ports, by central differences \[1]: of its component x (0) or y (1).
+    pub fn slope(&self, u: &DVector<f64>, i: usize, component: usize) -> f64 {
+        let port = self.port(i) + component;
+        (u[port + 2] - u[port - 2]) / self.span(i)
     }
 
     /// Width of the surface that belongs to candidate `i` \[m]: a nodal force over it is a traction.

@@ -29,11 +29,11 @@ impl ContactLine<'_> {
 
     /// Centred derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
     fn centred_stretches(&self, i: usize) -> [f64; 2] {
-        let (port, length) = (self.grid.port(i), self.grid.span(i));
+        let port = self.grid.port(i);
         let [wheel, rail] = &self.traction.surface;
         let turned = self.frame.tangential(wheel, port + 2) - self.frame.tangential(wheel, port - 2);
         let by_lines = self.stretch_by_lines(i);
-        [turned / length + by_lines, (rail[port + 2] - rail[port - 2]) / length - by_lines]
+        [turned / self.grid.span(i) + by_lines, self.grid.slope(rail, i, 0) - by_lines]
     }
 
     /// Takes the rim angle that belongs to the surface displacements at hand.

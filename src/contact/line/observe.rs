@@ -109,7 +109,7 @@ pub fn read_off(
         NodeStatus::Stick | NodeStatus::Open => 0.0,
     };
     over_patches(grid, status, patches, density, &mut traction.friction.dissipation);
-    scale_to(&mut traction.friction.dissipation, power, &traction.pressure);
+    traction.friction.dissipation.scale_to(power, &traction.pressure);
 }
 
 /// Fills the yielding part of `traction` from the depths `overlap` by which candidates have given way [m].
@@ -152,18 +152,6 @@ pub(in crate::contact) fn resultant(wheel: WheelShape, slopes: Slopes, traction:
         sum.rotation -= arm_t * t + arm_n * n;
     }
     sum
-}
-
-/// Scales a profile to the given integral; where it is zero itself, or too small to be scaled, it takes the shape of
-/// the `fallback`.
-fn scale_to(profile: &mut Piecewise, total: f64, fallback: &Piecewise) {
-    let factor = total / profile.integral();
-    if factor.is_finite() {
-        return profile.scale(factor);
-    }
-    profile.x.iter().zip(&mut profile.value).for_each(|(&x, v)| *v = fallback.at(x));
-    let load = profile.integral();
-    profile.scale(if load > 0.0 { total / load } else { 0.0 });
 }
 
 /// Edges of a run of closed nodes below grid scale, from the ratio of its outermost nodal pressures.

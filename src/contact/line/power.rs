@@ -9,7 +9,6 @@ use super::hot_layers::HotLayers;
 use super::rim::RimFrame;
 use crate::contact::traction::Traction;
 use crate::multistep::TimeDerivative;
-use nalgebra::DVector;
 
 /// Contact forces and motions of a solution.
 pub(in crate::contact) struct Power<'a> {
@@ -38,7 +37,7 @@ impl Power<'_> {
     /// Power [W/m] of pressure on the slope of the deformed rail where the surfaces slide over each other.
     fn slope_power(&self) -> f64 {
         let rail = &self.traction.surface[1];
-        let slope = |i: usize| self.slope(rail, i, self.grid.port(i) + 1) + self.swelling_slope(1, i);
+        let slope = |i: usize| self.grid.slope(rail, i, 1) + self.swelling_slope(1, i);
         let load: f64 = (0..self.grid.len()).map(|i| self.forces(i)[1] * slope(i)).sum();
         (self.rim_velocity - self.traction.rigid.travel) * (load + self.retarded)
     }
@@ -57,7 +56,7 @@ impl Power<'_> {
             let u = &self.layers.membrane[body];
             let of_node = |i: usize| {
                 let ([tangential, normal], port) = (self.forces(i), self.grid.port(i));
-                let straight = tangential * self.slope(u, i, port) + normal * self.slope(u, i, port + 1);
+                let straight = tangential * self.grid.slope(u, i, 0) + normal * self.grid.slope(u, i, 1);
                 let turned = tangential * u[port + 1] - normal * u[port];
                 velocity[body] * straight + if body == 0 { turning * turned } else { 0.0 }
             };
@@ -69,11 +68,6 @@ impl Power<'_> {
     fn forces(&self, i: usize) -> [f64; 2] {
         let port = self.grid.port(i);
         [self.traction.port_forces[port], self.traction.port_forces[port + 1]]
-    }
-
-    /// Slope of a displacement, of whose component at candidate `i` `port` is the port.
-    fn slope(&self, u: &DVector<f64>, i: usize, port: usize) -> f64 {
-        (u[port + 2] - u[port - 2]) / self.grid.span(i)
     }
 
     fn swelling_slope(&self, body: usize, i: usize) -> f64 {

@@ -66,9 +66,8 @@ impl Retarded {
             let pull = pull.get(i).copied().unwrap_or(0.0);
             let tangential = sign * forces[port] + pull - elastic[port];
             let normal = sign * forces[port + 1] - elastic[port + 1];
-            let slope = |port: usize| (displacement[port + 2] - displacement[port - 2]) / grid.span(i);
             let turned = normal * displacement[port] - tangential * displacement[port + 1];
-            tangential * slope(port) + normal * slope(port + 1) - turning * turned
+            tangential * grid.slope(displacement, i, 0) + normal * grid.slope(displacement, i, 1) - turning * turned
         };
         (0..grid.len()).map(of_node).sum()
     }

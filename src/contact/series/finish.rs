@@ -133,7 +133,7 @@ pub(super) fn finish(
     traction.yielding.overlap.clear();
     (traction.yielding.plastic_work, traction.yielding.share, traction.iterations) = (0.0, 0.0, 1);
     write_profiles(line, traction);
-    scale_to(&mut traction.friction.dissipation, power, &traction.pressure);
+    traction.friction.dissipation.scale_to(power, &traction.pressure);
     energy(line)
 }
 
@@ -184,15 +184,4 @@ fn write_profiles(line: &SeriesLine, traction: &mut Traction) {
         }
     }
     traction.pressure_max = line.tractions.pressure.peak();
-}
-
-/// Scales a profile to the given integral; where it is zero itself it takes the shape of the `fallback`.
-fn scale_to(profile: &mut Piecewise, total: f64, fallback: &Piecewise) {
-    let factor = total / profile.integral();
-    if factor.is_finite() {
-        return profile.scale(factor);
-    }
-    profile.value.clone_from(&fallback.value);
-    let load = profile.integral();
-    profile.scale(if load > 0.0 { total / load } else { 0.0 });
 }
