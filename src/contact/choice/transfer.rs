@@ -18,6 +18,11 @@ use std::ops::Range;
 /// Share of the reach of the smooth displacements that a patch may take when it comes from the grid \[1].
 const ROOM: f64 = 0.9;
 
+/// Side from which the material arrives: 1 from `+x`.
+fn upstream(traction: &Traction) -> f64 {
+    if traction.rigid.travel < 0.0 { -1.0 } else { 1.0 }
+}
+
 /// Impulse per force in the last step \[s].
 fn duration(force: &[f64], impulse: &[f64]) -> f64 {
     let ratio = impulse.iter().sum::<f64>() / force.iter().sum::<f64>();
@@ -39,11 +44,10 @@ pub(super) fn to_grid(
     let Tractions { pressure, slide, stick, directions } = &patch.tractions;
     let ([low, high], [stick_low, stick_high]) = (pressure.ends(), stick.ends());
     let slips = |sign: f64| if sign < 0.0 { NodeStatus::SlipBackward } else { NodeStatus::SlipForward };
-    let upstream = if traction.rigid.travel < 0.0 { -1.0 } else { 1.0 };
     let status = |x: f64| match directions {
         _ if x <= low || x >= high => NodeStatus::Open,
         Some(directions) => {
-            let place = upstream * (x - pressure.centre) / pressure.half_width;
+            let place = upstream(traction) * (x - pressure.centre) / pressure.half_width;
             match directions[constants.of_points.nearest(place)] {
                 0 => NodeStatus::Stick,
                 direction => slips(f64::from(direction)),
@@ -101,11 +105,11 @@ fn surface(
 
 /// Half-length of the stretch that sticks from the leading edge on, over that of the patch, if the states of a grid are
 /// those of a single patch of which a part at the trailing edge slips in one direction; and this direction.
-fn share(state: &LineState, upstream_right: bool) -> Option<(f64, f64)> {
+fn share(state: &LineState, upstream: f64) -> Option<(f64, f64)> {
     let closed: Vec<NodeStatus> = state.status.iter().copied().filter(|s| s.is_active()).collect();
     let stuck = closed.iter().filter(|s| s.is_stuck()).count();
     let from_edge = |s: &&NodeStatus| s.is_stuck();
-    let at_edge = match upstream_right {
+    let at_edge = match upstream > 0.0 {
         true => closed.iter().rev().take_while(from_edge).count(),
         false => closed.iter().take_while(from_edge).count(),
     };
@@ -123,7 +127,7 @@ fn on_points(
     state: &LineState,
     pressure: Arch,
 ) -> Tractions {
-    let upstream = if from.traction.rigid.travel < 0.0 { -1.0 } else { 1.0 };
+    let upstream = upstream(&from.traction);
     let x = constants.of_points.tractions.map(|t| pressure.centre + upstream * pressure.half_width * t);
     let next = |x: f64| grid.x.partition_point(|node| *node < x - 0.5 * grid.spacing).min(grid.len() - 1);
     let directions = x.map(|x| state.status[next(x)].friction_direction() as i8);
@@ -154,12 +158,11 @@ pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &Contac
     if edges.low < grid.x[even.start] || edges.high > grid.x[even.end - 1] {
         return None;
     }
-    let upstream_right = traction.rigid.travel >= 0.0;
     let (centre, half_width) = (edges.middle(), edges.half_length());
     let mut pressure = Arch { centre, half_width, count: PRESSURE, ..Arch::default() };
     pressure.terms[0] = 2.0 * load / (PI * half_width);
-    let side = if upstream_right { 1.0 } else { -1.0 };
-    let tractions = match share(state, upstream_right) {
+    let side = upstream(traction);
+    let tractions = match share(state, side) {
         Some((share, direction)) => {
             let mut stick = Arch::default();
             if share > 0.0 {
