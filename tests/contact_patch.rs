@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use std::f64::consts::PI;
 use wheelrail::contact::Traction;
 use wheelrail::contact::line::observe::read_off;
-use wheelrail::contact::line::{ContactGrid, LineState, NodeStatus};
+use wheelrail::contact::line::{ContactGrid, GridState, NodeStatus};
 
 /// Cells per half-width.
 const CELLS: f64 = 20.0;
@@ -23,7 +23,7 @@ fn grid(shift: f64) -> ContactGrid {
 fn traction(grid: &ContactGrid, normal: impl Fn(f64) -> f64, tangential: impl Fn(f64) -> f64) -> Traction {
     let (n, ports) = (grid.len(), DVector::zeros(grid.ports()));
     let mut state =
-        LineState { status: vec![NodeStatus::Open; n], slip: vec![0.0; n], gap: vec![0.0; n], ..Default::default() };
+        GridState { status: vec![NodeStatus::Open; n], slip: vec![0.0; n], gap: vec![0.0; n], ..Default::default() };
     let surface = [ports.clone(), ports.clone()];
     let mut traction = Traction { port_forces: ports, surface, ..Traction::default() };
     for (i, &x) in grid.x.iter().enumerate() {

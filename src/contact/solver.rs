@@ -4,7 +4,7 @@ use super::active_set::ActiveSetScratch;
 use super::choice::Stay;
 use super::error::ContactError;
 use super::line::LineHistory;
-use super::line::state::LineState;
+use super::line::state::GridState;
 use super::problem::ContactProblem;
 use super::series::state::SeriesState;
 use super::traction::Traction;
@@ -99,7 +99,7 @@ pub enum SolverState {
     #[default]
     Stateless,
     /// Of a line on paired nodes.
-    Line(Box<LineState>),
+    Grid(Box<GridState>),
     /// Of a line as series.
     Series(Box<SeriesState>),
 }

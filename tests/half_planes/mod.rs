@@ -8,7 +8,7 @@ use wheelrail::analytic::{HalfPlane, carter_force, carter_full_slip, contact_mod
 use wheelrail::axes::PerAxis;
 use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::kernel::logarithms;
-use wheelrail::contact::line::{ContactGrid, LineState};
+use wheelrail::contact::line::{ContactGrid, GridState};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
     LineKernel, LineProblem, RigidMotion, SolverState, SteelLimits, SurfaceResponse,
@@ -218,17 +218,17 @@ impl HalfPlanes {
 }
 
 /// Memory of the solver on the grid.
-pub fn grid_state(state: &ContactState) -> &LineState {
+pub fn grid_state(state: &ContactState) -> &GridState {
     match &state.solver {
-        SolverState::Line(grid) => grid,
+        SolverState::Grid(grid) => grid,
         other => panic!("state of another solver: {other:?}"),
     }
 }
 
 /// Memory of the solver on the grid, to be changed.
-pub fn grid_state_mut(state: &mut ContactState) -> &mut LineState {
+pub fn grid_state_mut(state: &mut ContactState) -> &mut GridState {
     match &mut state.solver {
-        SolverState::Line(grid) => grid,
+        SolverState::Grid(grid) => grid,
         other => panic!("state of another solver: {other:?}"),
     }
 }

@@ -96,12 +96,7 @@ impl HalfSpaces {
         })
     }
 
-    fn build(
-        aspect: f64,
-        lines: usize,
-        nodes: u32,
-        solver: impl Fn(&ContactGrid) -> Box<dyn ContactSolver>,
-    ) -> Self {
+    fn build(aspect: f64, lines: usize, nodes: u32, solver: impl Fn(&ContactGrid) -> Box<dyn ContactSolver>) -> Self {
         // The radii of curvature of a unit contact of this aspect, scaled to the mean axis.
         let lateral = |ratio: f64| Hertz::new(1.0, ratio, modulus());
         let (mut low, mut high) = (1e-4_f64, 1e4_f64);

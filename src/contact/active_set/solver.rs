@@ -5,7 +5,7 @@ use crate::contact::error::ContactError;
 use crate::contact::line::ContactGrid;
 use crate::contact::line::contact_line::LineStart;
 use crate::contact::line::history::LineHistory;
-use crate::contact::line::state::{LineState, NodeStatus};
+use crate::contact::line::state::{GridState, NodeStatus};
 use crate::contact::line::vectors::copy;
 use crate::contact::problem::{ContactProblem, LineProblem};
 use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, SolverState};
@@ -34,12 +34,12 @@ impl ActiveSetSolver {
 
 /// Makes `found` the start of a search.
 fn begin<'a>(start: &ContactState, found: &'a mut ContactState) -> Result<LineStart<'a>, ContactError> {
-    let SolverState::Line(before) = &start.solver else { return Err(ContactError::ForeignState) };
+    let SolverState::Grid(before) = &start.solver else { return Err(ContactError::ForeignState) };
     let ContactState { ports, traction, history, energy, solver, .. } = found;
-    if !matches!(solver, SolverState::Line(_)) {
-        *solver = SolverState::Line(Box::default());
+    if !matches!(solver, SolverState::Grid(_)) {
+        *solver = SolverState::Grid(Box::default());
     }
-    let SolverState::Line(state) = solver else { return Err(ContactError::ForeignState) };
+    let SolverState::Grid(state) = solver else { return Err(ContactError::ForeignState) };
     state.copy_from(before);
     history.copy_from(&start.history);
     *ports = start.ports;
@@ -56,7 +56,7 @@ impl ContactSolver for ActiveSetSolver {
         let reach = half_width.max(0.5 * self.grid.spacing);
         let touches = |x: &f64| if x.abs() < reach { NodeStatus::Stick } else { NodeStatus::Open };
         let (n, zeros) = (self.grid.len(), DVector::zeros(self.grid.ports()));
-        let state = LineState {
+        let state = GridState {
             status: self.grid.x.iter().map(touches).collect(),
             yielded: vec![false; n],
             slip: vec![0.0; n],
@@ -67,7 +67,7 @@ impl ContactSolver for ActiveSetSolver {
         ContactState {
             traction: Traction { port_forces: zeros, loads, surface, ..Traction::default() },
             history: LineHistory::none(n),
-            solver: SolverState::Line(Box::new(state)),
+            solver: SolverState::Grid(Box::new(state)),
             ..ContactState::default()
         }
     }
@@ -89,7 +89,7 @@ impl ContactSolver for ActiveSetSolver {
     }
 
     fn fits(&self, state: &ContactState) -> bool {
-        let SolverState::Line(line) = &state.solver else { return false };
+        let SolverState::Grid(line) = &state.solver else { return false };
         let (n, ports, traction) = (self.grid.len(), self.grid.ports(), &state.traction);
         let vectors = traction.loads.iter().chain(&traction.surface).chain([&traction.port_forces]);
         [line.status.len(), line.slip.len(), line.gap.len(), line.tangential_gap.len(), line.yielded.len()] == [n; 5]
@@ -100,8 +100,8 @@ impl ContactSolver for ActiveSetSolver {
 
     fn same_branch(&self, a: &ContactState, b: &ContactState) -> bool {
         match (&a.solver, &b.solver) {
-            (SolverState::Line(a), SolverState::Line(b)) => a.status == b.status && a.yielded == b.yielded,
-            (SolverState::Line(_) | SolverState::Series(_) | SolverState::Stateless, _) => false,
+            (SolverState::Grid(a), SolverState::Grid(b)) => a.status == b.status && a.yielded == b.yielded,
+            (SolverState::Grid(_) | SolverState::Series(_) | SolverState::Stateless, _) => false,
         }
     }
 

@@ -20,8 +20,8 @@ pub struct NodeChoice {
 }
 
 impl NodeChoice {
-    /// Contact on a `narrow` grid, on a `wide` one for patches that reach the end of that, whose innermost nodes are those
-    /// of the narrow one, and on `points` for smooth patches.
+    /// Contact on a `narrow` grid, on a `wide` one whose innermost nodes are those of the narrow one, and on `points` for
+    /// smooth patches.
     pub fn new(narrow: ContactGrid, wide: Option<ContactGrid>, points: Option<SeriesSolver>) -> Self {
         Self { points, narrow: ActiveSetSolver::new(narrow), wide: wide.map(ActiveSetSolver::new) }
     }
@@ -57,7 +57,7 @@ impl NodeChoice {
         let points = self.points.as_ref()?;
         let half_width = |line: &&ContactState| match &line.solver {
             SolverState::Series(series) => series.tractions.pressure.half_width,
-            SolverState::Line(_) | SolverState::Stateless => 0.0,
+            SolverState::Grid(_) | SolverState::Stateless => 0.0,
         };
         let (ports, fixed) = self.grid_for(lines.iter().map(half_width).fold(0.0, f64::max));
         let moved = |line: &&ContactState| {
@@ -110,10 +110,9 @@ impl ContactSolver for NodeChoice {
         for (line, (start, found)) in problem.lines.iter().zip(start.iter().zip(found)) {
             let (rigid, traction) = (&problem.rigid, &found.traction);
             found.stay = match &self.points {
-                Some(points) if ports != Ports::Smooth && !line.time.is_stationary() => start.stay.after_step(
-                    || SeriesSolver::stands(rigid, line, traction),
-                    || points.suits(rigid, line, traction),
-                ),
+                Some(points) if ports != Ports::Smooth && !line.time.is_stationary() => start
+                    .stay
+                    .after_step(|| SeriesSolver::stands(rigid, line, traction), || points.suits(rigid, line, traction)),
                 Some(_) | None => start.stay,
             };
         }

@@ -4,7 +4,7 @@
 //! open nodes without forces. Gaps and displacements of new nodes start as those of the outermost old one: nodes that
 //! close in the very step of the change lie next to it, and after it all are known.
 
-use crate::contact::line::{ContactGrid, FrictionHistory, LineState, NodeStatus};
+use crate::contact::line::{ContactGrid, FrictionHistory, GridState, NodeStatus};
 use crate::contact::solver::{ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use nalgebra::DVector;
@@ -50,8 +50,8 @@ fn components(values: &DVector<f64>, ports: usize, outside: Option<[f64; 2]>) ->
 pub(super) fn moved(line: &ContactState, grid: &ContactGrid, to: Ports) -> Option<ContactState> {
     let (n, ports) = (grid.len(), grid.ports());
     let mut moved = ContactState { ports: to, ..line.clone() };
-    let SolverState::Line(state) = &mut moved.solver else { return None };
-    let LineState { status, yielded, slip, gap, tangential_gap } = &mut **state;
+    let SolverState::Grid(state) = &mut moved.solver else { return None };
+    let GridState { status, yielded, slip, gap, tangential_gap } = &mut **state;
     *status = padded(status, n, NodeStatus::Open);
     *yielded = padded(yielded, n, false);
     *slip = padded(slip, n, 0.0);
@@ -72,7 +72,7 @@ pub(super) fn moved(line: &ContactState, grid: &ContactGrid, to: Ports) -> Optio
 /// True if the state of a line on a `wide` grid may as well live on a `narrow` one, under about the `nominal_load`
 /// [N/m].
 pub(super) fn fits_into([narrow, wide]: [&ContactGrid; 2], line: &ContactState, nominal_load: f64) -> bool {
-    let SolverState::Line(state) = &line.solver else { return false };
+    let SolverState::Grid(state) = &line.solver else { return false };
     let end = LEAVING * narrow.x.last().copied().unwrap_or(0.0);
     let beyond = |(x, status): (&f64, &NodeStatus)| status.is_active() && x.abs() > end;
     if wide.x.iter().zip(&state.status).any(beyond) {
@@ -97,13 +97,13 @@ mod tests {
         let wide = ContactGrid::uniform((-9..=9).map(f64::from).collect(), 1.0, 2);
         let values = |n: usize, from: f64| (0..n).map(|i| from + i as f64).collect::<Vec<_>>();
         let vector = |from| DVector::from_vec(values(narrow.ports(), from));
-        let mut state = LineState {
+        let mut state = GridState {
             status: vec![NodeStatus::Open; 9],
             yielded: vec![false; 9],
             slip: values(9, 1.0),
             gap: values(9, 2.0),
             tangential_gap: values(9, 3.0).into_iter().map(crate::multistep::History::constant).collect(),
-            ..LineState::default()
+            ..GridState::default()
         };
         state.status[4] = NodeStatus::Stick;
         let friction = FrictionHistory {
@@ -120,10 +120,10 @@ mod tests {
         };
         let history = LineHistory { friction, ..LineHistory::none(9) };
         let before =
-            ContactState { traction, history, solver: SolverState::Line(Box::new(state)), ..ContactState::default() };
+            ContactState { traction, history, solver: SolverState::Grid(Box::new(state)), ..ContactState::default() };
         let mut line = moved(&before, &wide, Ports::Wide).unwrap();
         let state = |line: &ContactState| match &line.solver {
-            SolverState::Line(state) => (**state).clone(),
+            SolverState::Grid(state) => (**state).clone(),
             other => panic!("{other:?}"),
         };
         let (on_wide, traction) = (state(&line), &line.traction);
@@ -133,7 +133,7 @@ mod tests {
         assert!(fits(&line));
         let mut longer = on_wide;
         longer.status[5] = NodeStatus::Stick;
-        assert!(!fits(&ContactState { solver: SolverState::Line(Box::new(longer)), ..line.clone() }));
+        assert!(!fits(&ContactState { solver: SolverState::Grid(Box::new(longer)), ..line.clone() }));
         line.traction.loads[1][2] = 0.02;
         assert!(!fits(&line));
         assert_eq!(moved(&line, &narrow, Ports::Narrow), Some(before));

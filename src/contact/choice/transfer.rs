@@ -2,7 +2,7 @@
 //! tangential displacement at the last two times, goes over as a function of x.
 
 use crate::contact::kernel::LineKernel;
-use crate::contact::line::{ContactGrid, FrictionHistory, LineHistory, LineState, NodeStatus};
+use crate::contact::line::{ContactGrid, FrictionHistory, GridState, LineHistory, NodeStatus};
 use crate::contact::series::chebyshev::TERMS;
 use crate::contact::series::constants::Constants;
 use crate::contact::series::tables::{POWER, PRESSURE};
@@ -38,7 +38,7 @@ pub(super) fn to_grid(
     mut target: ContactState,
 ) -> Option<ContactState> {
     let (traction, mut forces) = (&from.traction, target.traction.port_forces.clone());
-    let (SolverState::Series(patch), SolverState::Line(state)) = (&from.solver, &mut target.solver) else {
+    let (SolverState::Series(patch), SolverState::Grid(state)) = (&from.solver, &mut target.solver) else {
         return None;
     };
     let Tractions { pressure, slide, stick, directions } = &patch.tractions;
@@ -105,7 +105,7 @@ fn surface(
 
 /// Half-length of the stretch that sticks from the leading edge on, over that of the patch, if the states of a grid are
 /// those of a single patch of which a part at the trailing edge slips in one direction; and this direction.
-fn share(state: &LineState, upstream: f64) -> Option<(f64, f64)> {
+fn share(state: &GridState, upstream: f64) -> Option<(f64, f64)> {
     let closed: Vec<NodeStatus> = state.status.iter().copied().filter(|s| s.is_active()).collect();
     let stuck = closed.iter().filter(|s| s.is_stuck()).count();
     let from_edge = |s: &&NodeStatus| s.is_stuck();
@@ -124,7 +124,7 @@ fn on_points(
     constants: &Constants,
     grid: &ContactGrid,
     from: &ContactState,
-    state: &LineState,
+    state: &GridState,
     pressure: Arch,
 ) -> Tractions {
     let upstream = upstream(&from.traction);
@@ -148,7 +148,7 @@ fn even(grid: &ContactGrid) -> Range<usize> {
 /// The state of a line on a grid as that on points; `None` where it has not a single patch, or one that reaches nodes
 /// that lie farther apart.
 pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &ContactState) -> Option<ContactState> {
-    let (SolverState::Line(state), traction) = (&from.solver, &from.traction) else { return None };
+    let (SolverState::Grid(state), traction) = (&from.solver, &from.traction) else { return None };
     let ([edges], load) = (traction.edges.as_slice(), traction.resultant.height) else { return None };
     let reach = ROOM * constants.points.reach;
     if load <= 0.0 || traction.yielding.share > 0.0 || edges.low < -reach || edges.high > reach {

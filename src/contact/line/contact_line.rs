@@ -7,7 +7,7 @@ use super::others::{LineForces, OtherLines};
 use super::retarded::Retarded;
 use super::rim::{RimAngleRow, RimFrame};
 use super::slopes::Slopes;
-use super::state::LineState;
+use super::state::GridState;
 use super::streamline::UpwindRows;
 use crate::axes::PerAxis;
 use crate::contact::limits::RESISTANCE;
@@ -38,7 +38,7 @@ impl LineScratch {
         &mut self,
         grid: &ContactGrid,
         problem: &LineProblem,
-        state: &LineState,
+        state: &GridState,
         forces: &DVector<f64>,
         accelerations: PerAxis<f64>,
     ) {
@@ -62,7 +62,7 @@ pub struct ContactLine<'a> {
     pub given: &'a KnownPart,
     /// Forces of the other lines in the present iterate.
     pub others: &'a mut OtherLines,
-    pub state: &'a mut LineState,
+    pub state: &'a mut GridState,
     pub history: &'a mut LineHistory,
     pub traction: &'a mut Traction,
     /// Elastic energy that neither the bodies nor the logarithms count [J/m].
@@ -91,7 +91,7 @@ pub struct ContactLine<'a> {
 
 /// State, history, traction and elastic energy from which a line starts, and which it changes.
 pub struct LineStart<'a> {
-    pub state: &'a mut LineState,
+    pub state: &'a mut GridState,
     pub history: &'a mut LineHistory,
     pub traction: &'a mut Traction,
     pub energy: &'a mut f64,

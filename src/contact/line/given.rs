@@ -3,7 +3,7 @@
 use super::grid::ContactGrid;
 use super::hot_layers::HotLayers;
 use super::rim;
-use super::state::LineState;
+use super::state::GridState;
 use super::strength::Strength;
 use super::vectors::copy;
 use crate::axes::PerAxis;
@@ -39,7 +39,7 @@ impl KnownPart {
         &mut self,
         grid: &ContactGrid,
         problem: &LineProblem,
-        state: &LineState,
+        state: &GridState,
         forces: &DVector<f64>,
         accelerations: PerAxis<f64>,
     ) {

@@ -1,7 +1,7 @@
 //! One contact line on a grid of paired surface nodes: states, history, gap, slip and read-off.
 //!
 //! A line knows no solver, no rigid axis and no brake: rigid motions are numbers to it. [`ContactGrid`] has the nodes,
-//! [`LineState`] their states, [`LineHistory`] the history that all discretisations of a line share, [`given`] the
+//! [`GridState`] their states, [`LineHistory`] the history that all discretisations of a line share, [`given`] the
 //! known part of a problem with its [`hot_layers`] and the [`strength`] of the steel, [`contact_line`] the line in the
 //! present iterate, [`kinematics`] its displacements, gaps and slips, [`rows`] the same as affine functions, [`alone`]
 //! the flexibility that it has for itself, [`others`] the forces of the lines beside it and [`exchange`] how they come
@@ -36,4 +36,4 @@ pub(super) mod zone;
 
 pub use grid::ContactGrid;
 pub use history::{FrictionHistory, LineHistory};
-pub use state::{LineState, NodeStatus, for_each_patch};
+pub use state::{GridState, NodeStatus, for_each_patch};

@@ -3,7 +3,7 @@
 use super::grid::ContactGrid;
 use super::rim::RimFrame;
 use super::slopes::Slopes;
-use super::state::{LineState, NodeStatus, for_each_patch};
+use super::state::{GridState, NodeStatus, for_each_patch};
 use super::streamline::edge_offset;
 use crate::axes::PerAxis;
 use crate::contact::problem::LineProblem;
@@ -75,7 +75,7 @@ pub fn read_off(
     grid: &ContactGrid,
     power: f64,
     limit: f64,
-    state: &LineState,
+    state: &GridState,
     centred_slip: &[f64],
     traction: &mut Traction,
 ) {
@@ -113,7 +113,7 @@ pub fn read_off(
 }
 
 /// Fills the yielding part of `traction` from the depths `overlap` by which candidates have given way [m].
-pub(in crate::contact) fn overlap(grid: &ContactGrid, state: &LineState, overlap: &[f64], traction: &mut Traction) {
+pub(in crate::contact) fn overlap(grid: &ContactGrid, state: &GridState, overlap: &[f64], traction: &mut Traction) {
     traction.yielding.overlap.clear();
     let closed = state.status.iter().filter(|s| s.is_active()).count();
     let yielding = state.yielded.iter().filter(|yields| **yields).count();

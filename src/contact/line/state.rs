@@ -63,7 +63,7 @@ pub fn for_each_patch(status: &[NodeStatus], mut f: impl FnMut(std::ops::Range<u
 
 /// States of the candidates of a line, with gaps and slips, and the history of their displacements.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct LineState {
+pub struct GridState {
     /// States of the candidates.
     pub status: Vec<NodeStatus>,
     /// Yielding of the candidates: true where the pressure of a closed pair is at its limit.
@@ -77,7 +77,7 @@ pub struct LineState {
     pub tangential_gap: Vec<History>,
 }
 
-impl LineState {
+impl GridState {
     /// Becomes equal to another state and keeps its memory.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.status.clone_from(&other.status);

@@ -28,7 +28,7 @@ impl<'a> SeriesStart<'a> {
     pub fn of(state: &'a ContactState) -> Option<Self> {
         match &state.solver {
             SolverState::Series(before) => Some(Self { before, history: &state.history, traction: &state.traction }),
-            SolverState::Line(_) | SolverState::Stateless => None,
+            SolverState::Grid(_) | SolverState::Stateless => None,
         }
     }
 }

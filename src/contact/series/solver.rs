@@ -158,7 +158,7 @@ impl ContactSolver for SeriesSolver {
         for (found, (start, begun)) in found.iter_mut().zip(start.iter().zip(&begun)) {
             match &mut found.solver {
                 SolverState::Series(state) => (**state).clone_from(begun.before),
-                SolverState::Line(_) | SolverState::Stateless => {
+                SolverState::Grid(_) | SolverState::Stateless => {
                     found.solver = SolverState::Series(Box::new(begun.before.clone()))
                 }
             }
@@ -197,7 +197,7 @@ impl ContactSolver for SeriesSolver {
     fn same_branch(&self, a: &ContactState, b: &ContactState) -> bool {
         match (&a.solver, &b.solver) {
             (SolverState::Series(a), SolverState::Series(b)) => a.tractions.same_branch(&b.tractions),
-            (SolverState::Series(_) | SolverState::Line(_) | SolverState::Stateless, _) => false,
+            (SolverState::Series(_) | SolverState::Grid(_) | SolverState::Stateless, _) => false,
         }
     }
 }

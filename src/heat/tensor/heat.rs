@@ -41,7 +41,7 @@ impl Heat {
 
     /// Number of unknown temperatures.
     pub fn unknowns(&self) -> usize {
-        self.layout.bodies().map(|body| body.line.len() * body.modes.shapes.nrows()).iter().sum()
+        self.layout.bodies().map(|body| body.streamline.len() * body.modes.shapes.nrows()).iter().sum()
     }
 
     /// Heat contents of wheel and rail over the reference temperature [J/m], over the width of the contact.

@@ -69,11 +69,11 @@ impl Heat {
 
 /// Nodal temperatures, where `place` puts the distance along the surface and the depth into the plane.
 fn field(body: &HeatBody, modes: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) -> TemperatureField {
-    let HeatBody { line, modes: across, .. } = body;
-    let (along, depths) = (line.len(), across.depths.len());
+    let HeatBody { streamline, modes: across, .. } = body;
+    let (along, depths) = (streamline.len(), across.depths.len());
     let mut mesh = Mesh::default();
     let mut temperature = Vec::with_capacity(along * depths);
-    for (&s, values) in line.nodes.iter().zip(modes.chunks_exact(across.len())) {
+    for (&s, values) in streamline.nodes.iter().zip(modes.chunks_exact(across.len())) {
         for (i, &z) in across.depths.iter().enumerate() {
             mesh.nodes.push(place(s, z));
             // A fixed last node has no row.
@@ -82,10 +82,10 @@ fn field(body: &HeatBody, modes: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) -
             temperature.push(dot(values, &shape));
         }
     }
-    for element in 0..line.lengths.len() {
-        let (from, to) = (element * depths, line.after(element) * depths);
+    for element in 0..streamline.lengths.len() {
+        let (from, to) = (element * depths, streamline.after(element) * depths);
         // Counter-clockwise: below the contact point depth points down in the rail, up in the wheel.
-        let wheel = line.closed > 0.0;
+        let wheel = streamline.closed > 0.0;
         let cell = |(upper, lower): (usize, usize)| [from + lower, to + lower, to + upper, from + upper];
         mesh.cells.extend((1..depths).map(|i| cell(if wheel { (i, i - 1) } else { (i - 1, i) })));
     }
@@ -95,12 +95,12 @@ fn field(body: &HeatBody, modes: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) -
 /// Nodes of the element at a distance along the surface, and the place within it from 0 to 1; outside an open
 /// streamline that of its end.
 fn element(body: &HeatBody, s: f64) -> ([usize; 2], f64) {
-    let line = &body.line;
+    let streamline = &body.streamline;
     let mut s = s;
-    if line.closed > 0.0 {
-        s = line.nodes[0] + (s - line.nodes[0]).rem_euclid(line.closed);
+    if streamline.closed > 0.0 {
+        s = streamline.nodes[0] + (s - streamline.nodes[0]).rem_euclid(streamline.closed);
     }
-    let element = line.nodes.partition_point(|&x| x <= s).saturating_sub(1).min(line.lengths.len() - 1);
-    let xi = ((s - line.nodes[element]) / line.lengths[element]).clamp(0.0, 1.0);
-    ([element, line.after(element)], xi)
+    let element = streamline.nodes.partition_point(|&x| x <= s).saturating_sub(1).min(streamline.lengths.len() - 1);
+    let xi = ((s - streamline.nodes[element]) / streamline.lengths[element]).clamp(0.0, 1.0);
+    ([element, streamline.after(element)], xi)
 }

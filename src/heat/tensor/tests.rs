@@ -28,9 +28,9 @@ const HEAT_CAPACITY: f64 = 460.0 * 8000.0;
 const STATIONARY: StageCoefficients = StageCoefficients { storage: 0.0, flow: 1.0 };
 
 /// Annulus with fixed hub whose rim is held at the temperature of the air by a very large film coefficient.
-fn annulus(line: Streamline, layers: &[f64], convection: f64) -> HeatBody {
+fn annulus(streamline: Streamline, layers: &[f64], convection: f64) -> HeatBody {
     let modes = DepthModes::new(&Section::even(layers.to_vec()), 1.0 / R, true, convection / CONDUCTIVITY).unwrap();
-    HeatBody::new(line, modes, HEAT_CAPACITY, CONDUCTIVITY, convection).unwrap()
+    HeatBody::new(streamline, modes, HEAT_CAPACITY, CONDUCTIVITY, convection).unwrap()
 }
 
 fn even(n: usize) -> Streamline {
@@ -41,17 +41,17 @@ fn even(n: usize) -> Streamline {
 #[test]
 fn uniform_source_in_an_annulus_does_not_feel_the_rotation() {
     let zone: Vec<f64> = (0..=30).map(|i| f64::from(i) * 3.8e-5).collect();
-    let line = Streamline::around_contact(&zone, PI * R, 1.5, 0.15 * R, true);
-    let body = annulus(line, &graded(9e-6, 1.8, 0.15 * (R - HUB), R - HUB), 1e13);
+    let streamline = Streamline::around_contact(&zone, PI * R, 1.5, 0.15 * R, true);
+    let body = annulus(streamline, &graded(9e-6, 1.8, 0.15 * (R - HUB), R - HUB), 1e13);
     let mut middle = Vec::new();
     for omega in [0.0, 1e-3, 1.0, 27.8, 1e2, 1e3, 1e4] {
         let mut transport = Transport::default();
-        transport.set(&body.line, -omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
+        transport.set(&body.streamline, -omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
         let mut factor = TridiagonalFactor::default();
         factor.set(&body, &transport, STATIONARY, &(0..0)).unwrap();
-        let mut tested = vec![0.0; body.line.len()];
-        for (e, h) in body.line.lengths.iter().enumerate() {
-            transport.add_load(&body.line, e, [*h, 0.5 * h], &mut tested);
+        let mut tested = vec![0.0; body.streamline.len()];
+        for (e, h) in body.streamline.lengths.iter().enumerate() {
+            transport.add_load(&body.streamline, e, [*h, 0.5 * h], &mut tested);
         }
         let mut field: Vec<f64> =
             tested.iter().flat_map(|w| body.modes.content.iter().map(move |c| 1000.0 * w * c)).collect();
@@ -86,9 +86,9 @@ fn rotating_cosine(n: usize, layers: usize, omega: f64) -> ([f64; 2], usize) {
     let depths: Vec<f64> = (0..=layers).map(|i| (R - HUB) * i as f64 / layers as f64).collect();
     let body = annulus(even(n), &depths, 1e8);
     let (mut transport, mut factor) = (Transport::default(), TridiagonalFactor::default());
-    transport.set(&body.line, omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
+    transport.set(&body.streamline, omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
     factor.set(&body, &transport, STATIONARY, &(0..0)).unwrap();
-    let rim = |j: usize| (body.line.nodes[j % n] / R).cos();
+    let rim = |j: usize| (body.streamline.nodes[j % n] / R).cos();
     let load: Vec<f64> = (0..n)
         .map(|i| {
             transport.mass_lower[i] * rim(i + n - 1) + transport.mass[i] * rim(i) + transport.mass_upper[i] * rim(i + 1)
@@ -101,7 +101,7 @@ fn rotating_cosine(n: usize, layers: usize, omega: f64) -> ([f64; 2], usize) {
         Gmres::default().solve(&mut AnnulusSystem(&body, &transport, &factor), &mut field, 1e-15, 1e-10).unwrap();
     let across = body.modes.at(R - 0.45);
     let mut c = [0.0; 2];
-    for (row, s) in field.chunks(across.len()).zip(&body.line.nodes) {
+    for (row, s) in field.chunks(across.len()).zip(&body.streamline.nodes) {
         let t: f64 = row.iter().zip(&across).map(|(t, s)| t * s).sum();
         c[0] += 2.0 / n as f64 * t * (s / R).cos();
         c[1] -= 2.0 / n as f64 * t * (s / R).sin();
@@ -282,15 +282,15 @@ fn entry_into_a_conducting_contact_follows_its_closed_form() {
 #[test]
 fn surface_response_equals_solutions_for_unit_loads() {
     let zone: Vec<f64> = (0..=20).map(|i| f64::from(i) * 1e-3).collect();
-    let line = Streamline::around_contact(&zone, PI * R, 1.5, 0.15 * R, true);
+    let streamline = Streamline::around_contact(&zone, PI * R, 1.5, 0.15 * R, true);
     for (omega, nodes) in
         [0.0, 0.01, 30.0, -30.0].into_iter().flat_map(|omega| [1, 5, 9, 38].map(|nodes| (omega, nodes)))
     {
         let modes = DepthModes::new(&Section::even(graded(1e-4, 1.8, 0.1, R - HUB)), 1.0 / R, true, 0.0).unwrap();
-        let body = HeatBody::new(line.clone(), modes, HEAT_CAPACITY, CONDUCTIVITY, 0.0).unwrap();
+        let body = HeatBody::new(streamline.clone(), modes, HEAT_CAPACITY, CONDUCTIVITY, 0.0).unwrap();
         let (mut transport, mut factor) = (Transport::default(), TridiagonalFactor::default());
-        transport.set(&body.line, -omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
-        let range = body.line.zone + 1..body.line.zone + 1 + nodes;
+        transport.set(&body.streamline, -omega * R, 0.0, HEAT_CAPACITY, CONDUCTIVITY);
+        let range = body.streamline.zone + 1..body.streamline.zone + 1 + nodes;
         factor.set(&body, &transport, STATIONARY, &range).unwrap();
         let mut response = SurfaceInfluence::default();
         response.set(&factor, &body, range.clone());

@@ -90,8 +90,9 @@ impl ObservationWeights {
             &mut values[..]
         });
         products_of_three(zone, [&body.modes.surface, weights, moments], out);
-        let mean =
-            |weights: &[f64]| if body.line.closed > 0.0 { dot(&seen.sums, weights) / body.line.closed } else { 0.0 };
+        let mean = |weights: &[f64]| {
+            if body.streamline.closed > 0.0 { dot(&seen.sums, weights) / body.streamline.closed } else { 0.0 }
+        };
         let (along, moment_along) = (mean(weights), mean(moments));
         seen.layer[i].iter_mut().for_each(|content| *content -= along);
         let moments = seen.moments.iter().map(|moment| moment - moment_along);

@@ -13,7 +13,7 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub struct HeatBody {
     /// Mesh along the surface.
-    pub line: Streamline,
+    pub streamline: Streamline,
     /// Modes across the streamlines.
     pub modes: DepthModes,
     /// Nodes across the streamlines.
@@ -30,19 +30,19 @@ impl HeatBody {
     /// Body with the heat capacity `ρc` [J/(m³ K)], the conductivity [W/(m K)] and the coefficient of convection
     /// [W/(m² K)].
     pub fn new(
-        line: Streamline,
+        streamline: Streamline,
         modes: DepthModes,
         heat_capacity: f64,
         conductivity: f64,
         convection: f64,
     ) -> Result<Self, HeatError> {
         let nodal = Nodal::new(&modes)?;
-        Ok(Self { line, modes, nodal, heat_capacity, conductivity, convection })
+        Ok(Self { streamline, modes, nodal, heat_capacity, conductivity, convection })
     }
 
     /// Number of values of a field.
     pub fn size(&self) -> usize {
-        self.line.len() * self.modes.len()
+        self.streamline.len() * self.modes.len()
     }
 
     /// Adds a surface load given at the nodes `first..` to a right-hand side.
@@ -68,6 +68,6 @@ impl HeatBody {
         let nm = self.modes.len();
         sums.clear();
         sums.resize(nm, 0.0);
-        kernels::add_weighted(&self.line.weights, x, sums);
+        kernels::add_weighted(&self.streamline.weights, x, sums);
     }
 }

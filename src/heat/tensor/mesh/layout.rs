@@ -53,21 +53,21 @@ impl HeatLayout {
         let (conductivity, convection) = (c.material.conductivity, c.thermal.convection);
         let biot = convection / conductivity;
         let zone = zone_nodes(&c);
-        let line =
+        let streamline =
             |half: f64, largest: f64, closed: bool| Streamline::around_contact(&zone, half, GROWTH, largest, closed);
-        let body = |line: Streamline, modes: DepthModes| {
-            HeatBody::new(line, modes, c.heat_capacity(), conductivity, convection)
+        let body = |streamline: Streamline, modes: DepthModes| {
+            HeatBody::new(streamline, modes, c.heat_capacity(), conductivity, convection)
         };
         let held = match c.thermal.hub {
             Hub::Fixed => true,
             Hub::Insulated => false,
         };
         let wheel = body(
-            line(PI * radius, LARGEST_ALONG * radius, true),
+            streamline(PI * radius, LARGEST_ALONG * radius, true),
             DepthModes::new(&Section::wheel(&c, grading), 1.0 / radius, held, biot)?,
         )?;
         let rail = body(
-            line(0.5 * c.rail.length, LARGEST_ALONG_RAIL * c.rail.length, false),
+            streamline(0.5 * c.rail.length, LARGEST_ALONG_RAIL * c.rail.length, false),
             DepthModes::new(&Section::rail(&c, grading), 0.0, false, biot)?,
         )?;
         Ok(Self { wheel, rail, zone_cells: zone.len() - 1, config: c })
@@ -107,7 +107,7 @@ impl HeatLayout {
 
     /// Surface positions of the common nodes in the contact zone \[m], ascending.
     pub fn zone_positions(&self) -> &[f64] {
-        &self.rail.line.nodes[self.zone_nodes(&self.rail)]
+        &self.rail.streamline.nodes[self.zone_nodes(&self.rail)]
     }
 
     /// Number of elements of the contact zone.
@@ -117,12 +117,12 @@ impl HeatLayout {
 
     /// Nodes of the contact zone, counted in a body.
     pub fn zone_nodes(&self, body: &HeatBody) -> Range<usize> {
-        body.line.zone..body.line.zone + self.zone_elements() + 1
+        body.streamline.zone..body.streamline.zone + self.zone_elements() + 1
     }
 
     /// Heat capacity of a whole body [J/(m K)], over the width of the contact.
     pub fn heat_capacity(&self, body: &HeatBody) -> f64 {
-        let length = if body.line.closed > 0.0 { body.line.closed } else { self.config.rail.length };
+        let length = if body.streamline.closed > 0.0 { body.streamline.closed } else { self.config.rail.length };
         body.heat_capacity * length * body.modes.section
     }
 

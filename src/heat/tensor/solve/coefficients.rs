@@ -59,8 +59,8 @@ impl StageCoefficients {
         let nm = body.modes.len();
         work.clear();
         work.resize(body.size(), 0.0);
-        for (e, h) in body.line.lengths.iter().enumerate() {
-            let (a, b) = (e * nm, body.line.after(e) * nm);
+        for (e, h) in body.streamline.lengths.iter().enumerate() {
+            let (a, b) = (e * nm, body.streamline.after(e) * nm);
             for m in 0..nm {
                 let flux = self.flow * body.conductivity / h * (x[a + m] - x[b + m]);
                 work[a + m] += flux;

@@ -48,7 +48,7 @@ impl Inverses {
         let transport = &mut self.transport;
         self.kept.select(key.clone(), |inverse| {
             let InverseKey { speed, coefficients, rate, ref nodes } = *key;
-            transport.set(&body.line, speed, rate, body.heat_capacity, body.conductivity);
+            transport.set(&body.streamline, speed, rate, body.heat_capacity, body.conductivity);
             inverse.exit = transport.exit.map_or(0.0, |(_, flux)| flux);
             inverse.factor.set(body, transport, coefficients, nodes)?;
             inverse.upwind.clear();

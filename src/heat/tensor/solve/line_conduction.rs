@@ -73,7 +73,7 @@ impl LineConduction {
             let moments = &self.conductance[self.elements.clone()];
             let bodies = layout.bodies().into_iter().zip(stage.bodies()).zip(&mut self.sides);
             for ((body, operator), side) in bodies {
-                side.present.set(moments, &operator.transport.upwind[body.line.zone + self.nodes.start..]);
+                side.present.set(moments, &operator.transport.upwind[body.streamline.zone + self.nodes.start..]);
                 side.inverted.set(moments, &operator.inverses.present().upwind[first..]);
             }
             self.set_coupling(stage, layout, key, even_conductance(&layout.config.thermal))?;
@@ -90,11 +90,11 @@ impl LineConduction {
         key: StageKey,
         even: Option<f64>,
     ) -> Result<(), HeatError> {
-        let first = layout.wheel.line.zone + self.nodes.start;
+        let first = layout.wheel.streamline.zone + self.nodes.start;
         let [wheel, rail] = stage.bodies().map(|operator| &operator.inverses);
         let conduction = Conduction {
             moments: &self.conductance[self.elements.clone()],
-            lengths: &layout.wheel.line.lengths[first..first + self.nodes.len() - 1],
+            lengths: &layout.wheel.streamline.lengths[first..first + self.nodes.len() - 1],
             even,
             flow: key.coefficients.flow,
             sides: [(wheel.present(), &self.sides[0].inverted), (rail.present(), &self.sides[1].inverted)],
@@ -110,7 +110,7 @@ impl LineConduction {
 
     /// Contact nodes counted in a body.
     pub fn nodes(&self, body: &HeatBody) -> Range<usize> {
-        let first = body.line.zone;
+        let first = body.streamline.zone;
         first + self.nodes.start..first + self.nodes.end
     }
 
@@ -123,7 +123,7 @@ impl LineConduction {
         let bodies = layout.bodies().into_iter().zip(&mut self.sides).zip([flow, -flow]).zip(layout.split_mut(out));
         for (((body, side), factor), out) in bodies {
             side.present.set_load(factor, &self.jump, &mut side.load);
-            body.add_surface_load(body.line.zone + self.nodes.start, &side.load, out);
+            body.add_surface_load(body.streamline.zone + self.nodes.start, &side.load, out);
         }
     }
 

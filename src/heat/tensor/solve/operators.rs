@@ -40,7 +40,7 @@ impl StageKey {
         let Self { coefficients, rate, contact: [start, end], .. } = *self;
         let streams = streams(layout, self.inverted);
         [(&layout.wheel, streams[0]), (&layout.rail, streams[1])].map(|(body, speed)| {
-            let first = body.line.zone;
+            let first = body.streamline.zone;
             InverseKey { speed, coefficients, rate, nodes: first + start..first + end }
         })
     }
@@ -70,7 +70,7 @@ impl StageOperators {
         let bodies = [(&layout.wheel, &mut self.wheel), (&layout.rail, &mut self.rail)];
         let present = streams(layout, key.speeds);
         for (((body, operator), speed), inverse) in bodies.into_iter().zip(present).zip(&key.inverses(layout)) {
-            operator.transport.set(&body.line, speed, key.rate, body.heat_capacity, body.conductivity);
+            operator.transport.set(&body.streamline, speed, key.rate, body.heat_capacity, body.conductivity);
             operator.inverses.set(body, inverse)?;
         }
         self.key = Some(key);
@@ -95,7 +95,7 @@ impl StageOperators {
     /// Prepares conduction alone for the present operators.
     pub fn set_still(&mut self, layout: &HeatLayout) {
         for (body, operator) in [(&layout.wheel, &mut self.wheel), (&layout.rail, &mut self.rail)] {
-            operator.still.set_still(&operator.transport, &body.line, body.conductivity);
+            operator.still.set_still(&operator.transport, &body.streamline, body.conductivity);
         }
     }
 }

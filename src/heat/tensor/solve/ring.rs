@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// The matrices `α M̃ + β F` of all modes, and the node that is eliminated last.
 pub struct Ring<'a> {
-    pub line: &'a Transport,
+    pub transport: &'a Transport,
     /// α, mode by mode.
     pub alpha: &'a [f64],
     /// β \[s].
@@ -28,14 +28,14 @@ impl Ring<'_> {
     /// Node that is eliminated in a step, the first one after the last in step 0.
     fn node(&self, step: usize) -> usize {
         let node = self.last + 1 + step;
-        let n = self.line.mass.len();
+        let n = self.transport.mass.len();
         if node < n { node } else { node - n }
     }
 
     fn entries(&self, i: usize) -> Entries {
-        let Transport { mass_lower, mass, mass_upper, flow_lower, flow_upper, .. } = self.line;
+        let Transport { mass_lower, mass, mass_upper, flow_lower, flow_upper, .. } = self.transport;
         Entries {
-            sum: [mass_lower[i] + mass[i] + mass_upper[i], self.flow * self.line.entry(i)],
+            sum: [mass_lower[i] + mass[i] + mass_upper[i], self.flow * self.transport.entry(i)],
             below: [mass_lower[i], self.flow * flow_lower[i]],
             above: [mass_upper[i], self.flow * flow_upper[i]],
         }

@@ -262,7 +262,7 @@ vectorised! {
     /// the entries there are zero.
     fn tridiagonal_product<'a, S, const L: usize>(
         simd,
-        line: &'a Transport,
+        transport: &'a Transport,
         values: &'a [f64],
         weights: [f64; 3],
         fields: [&'a [f64]; L],
@@ -280,8 +280,8 @@ vectorised! {
             let (first, last) = (&fields[l][..k], &fields[l][fields[l].len() - k..]);
             rows[l] = [last, last, first];
         }
-        let n = line.rows.len();
-        for (i, &[below, sum, above, from, to]) in line.rows.iter().enumerate() {
+        let n = transport.rows.len();
+        for (i, &[below, sum, above, from, to]) in transport.rows.iter().enumerate() {
             let [below, sum, above] = [below, sum, above].map(|mass| simd.splat_f64s(mass));
             let [from, to] = [from, to].map(|carried| simd.splat_f64s(-flow * carried));
             let next = if i + 1 == n { 0 } else { (i + 1) * k };

@@ -27,30 +27,30 @@ pub struct Transport {
 
 impl Transport {
     /// Matrices for the stream velocity `speed` [m/s] and a step whose implicit coefficient is `1/rate` [s].
-    pub fn set(&mut self, line: &Streamline, speed: f64, rate: f64, heat_capacity: f64, conductivity: f64) {
-        let (n, elements) = (line.len(), line.lengths.len());
+    pub fn set(&mut self, streamline: &Streamline, speed: f64, rate: f64, heat_capacity: f64, conductivity: f64) {
+        let (n, elements) = (streamline.len(), streamline.lengths.len());
         let Self { mass_lower, mass, mass_upper, flow_lower, flow_upper, upwind, .. } = self;
         for values in [&mut *mass_lower, mass, mass_upper, flow_lower, flow_upper] {
             values.resize(n, 0.0);
         }
         let advection = heat_capacity * speed;
-        UpwindParameter::new(speed, conductivity / heat_capacity, rate).fill(line, upwind);
+        UpwindParameter::new(speed, conductivity / heat_capacity, rate).fill(streamline, upwind);
         let weights = [advection, conductivity];
         let rows = [&mut mass[..elements], &mut mass_upper[..elements], &mut flow_upper[..elements]];
-        set_first_nodes(&line.lengths, upwind, weights, rows);
+        set_first_nodes(&streamline.lengths, upwind, weights, rows);
         // On an open streamline no element follows the last node, and none comes before the first one.
         for values in [&mut *mass, mass_upper, flow_upper] {
             values[elements..].fill(0.0);
         }
         (mass_lower[0], flow_lower[0]) = (0.0, 0.0);
         let [(before, closing), (sigma, closing_sigma)] =
-            [&line.lengths, &*upwind].map(|values| values.split_at(n - 1));
+            [&streamline.lengths, &*upwind].map(|values| values.split_at(n - 1));
         let rows = [&mut mass[1..], &mut mass_lower[1..], &mut flow_lower[1..]];
         add_second_nodes(before, sigma, weights, rows);
         let rows = [&mut mass[..1], &mut mass_lower[..1], &mut flow_lower[..1]];
         add_second_nodes(closing, closing_sigma, weights, rows);
         let ends = if speed > 0.0 { (0, n - 1) } else { (n - 1, 0) };
-        let open = line.closed == 0.0 && speed != 0.0;
+        let open = streamline.closed == 0.0 && speed != 0.0;
         self.entry = open.then_some((ends.0, advection.abs()));
         self.exit = open.then_some((ends.1, advection.abs()));
         self.set_rows();
@@ -69,17 +69,17 @@ impl Transport {
     }
 
     /// Replaces the matrices by those of conduction alone: the tilted mass of `moving`, and `F = k K` without a stream.
-    pub fn set_still(&mut self, moving: &Self, line: &Streamline, conductivity: f64) {
+    pub fn set_still(&mut self, moving: &Self, streamline: &Streamline, conductivity: f64) {
         self.mass_lower.clone_from(&moving.mass_lower);
         self.mass.clone_from(&moving.mass);
         self.mass_upper.clone_from(&moving.mass_upper);
         for values in [&mut self.flow_lower, &mut self.flow_upper] {
             values.clear();
-            values.resize(line.len(), 0.0);
+            values.resize(streamline.len(), 0.0);
         }
-        for (e, h) in line.lengths.iter().enumerate() {
+        for (e, h) in streamline.lengths.iter().enumerate() {
             self.flow_upper[e] -= conductivity / h;
-            self.flow_lower[line.after(e)] -= conductivity / h;
+            self.flow_lower[streamline.after(e)] -= conductivity / h;
         }
         (self.entry, self.exit) = (None, None);
         self.set_rows();
@@ -91,8 +91,8 @@ impl Transport {
     }
 
     /// Adds the load `∫ q w̃ ds` of an element with the moments `∫ q ds` and `∫ q ξ ds`, ξ from 0 to 1.
-    pub fn add_load(&self, line: &Streamline, element: usize, moments: [f64; 2], load: &mut [f64]) {
-        add_tested(line, element, self.upwind[element], moments, load);
+    pub fn add_load(&self, streamline: &Streamline, element: usize, moments: [f64; 2], load: &mut [f64]) {
+        add_tested(streamline, element, self.upwind[element], moments, load);
     }
 
     /// Adds the load of heat that is conducted through the contact in an element, where the conductance has the moments
@@ -100,13 +100,13 @@ impl Transport {
     /// and not how they are split.
     pub fn add_conducted(
         &self,
-        line: &Streamline,
+        streamline: &Streamline,
         element: usize,
         moments: [f64; 2],
         conductance: [f64; 3],
         load: &mut [f64],
     ) {
-        add_tested(line, element, upwind_within(self.upwind[element], conductance), moments, load);
+        add_tested(streamline, element, upwind_within(self.upwind[element], conductance), moments, load);
     }
 }
 
@@ -157,10 +157,10 @@ vectorised! {
 }
 
 /// Adds `∫ q w̃ ds` of an element, whose test functions are tilted by `sigma`.
-fn add_tested(line: &Streamline, element: usize, sigma: f64, moments: [f64; 2], load: &mut [f64]) {
+fn add_tested(streamline: &Streamline, element: usize, sigma: f64, moments: [f64; 2], load: &mut [f64]) {
     let shifted = sigma * moments[0];
     load[element] += moments[0] - moments[1] - shifted;
-    load[line.after(element)] += moments[1] + shifted;
+    load[streamline.after(element)] += moments[1] + shifted;
 }
 
 /// Distance of the centroid of a conductance from the middle of its element that is round-off \[1].
@@ -196,13 +196,13 @@ impl UpwindParameter {
         Self { speed, peclet: 0.5 * speed.abs() / diffusivity, transient: 2.0 * rate / speed.abs() }
     }
 
-    /// Replaces `out` by the parameters of the elements of `line`.
-    fn fill(&self, line: &Streamline, out: &mut Vec<f64>) {
-        out.resize(line.lengths.len(), 0.0);
-        if self.peclet * line.shortest >= SATURATED {
-            set_upwind(&line.lengths, self.peclet, self.transient, self.speed, out);
+    /// Replaces `out` by the parameters of the elements of `streamline`.
+    fn fill(&self, streamline: &Streamline, out: &mut Vec<f64>) {
+        out.resize(streamline.lengths.len(), 0.0);
+        if self.peclet * streamline.shortest >= SATURATED {
+            set_upwind(&streamline.lengths, self.peclet, self.transient, self.speed, out);
         } else {
-            out.iter_mut().zip(&line.lengths).for_each(|(out, &h)| *out = self.of(h));
+            out.iter_mut().zip(&streamline.lengths).for_each(|(out, &h)| *out = self.of(h));
         }
     }
 

@@ -46,7 +46,7 @@ impl TridiagonalFactor {
         coefficients: StageCoefficients,
         contact: &Range<usize>,
     ) -> Result<(), HeatError> {
-        let (nm, n) = (body.modes.len(), body.line.len());
+        let (nm, n) = (body.modes.len(), body.streamline.len());
         let [storage, flow] = coefficients.mass_weight(body);
         self.last = if contact.is_empty() { n - 1 } else { contact.end - 1 };
         self.alpha.clear();
@@ -58,7 +58,7 @@ impl TridiagonalFactor {
         self.carried.begin(nm);
         self.column.clear();
         self.row.clear();
-        let ring = Ring { line: transport, alpha: &self.alpha, flow: coefficients.flow, last: self.last };
+        let ring = Ring { transport, alpha: &self.alpha, flow: coefficients.flow, last: self.last };
         let (mut step, filled) = (0, n - 2);
         while self.carried.alive && step < filled {
             let steps = step..(step + STRIDE).min(filled);

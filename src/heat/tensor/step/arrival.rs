@@ -33,8 +33,8 @@ pub fn arrive(
     let ahead = |x: f64| x * velocity.signum();
     let ends = exchange.patches.iter().flat_map(|patch| [ahead(patch.low), ahead(patch.high)]);
     let from = ends.fold(layout.config.zone, f64::max);
-    let (modes, nodes) = (&layout.rail.modes, &layout.rail.line.nodes);
-    let first = begin.rows.len().min(layout.wheel.line.len());
+    let (modes, nodes) = (&layout.rail.modes, &layout.rail.streamline.nodes);
+    let first = begin.rows.len().min(layout.wheel.streamline.len());
     let mut known = begin.rows[first..].iter_mut();
     let [_, rail] = layout.split_mut(&mut begin.values);
     for (row, &x) in rail.chunks_exact_mut(modes.len()).zip(nodes) {

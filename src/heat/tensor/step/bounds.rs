@@ -59,7 +59,7 @@ pub fn search(layout: &HeatLayout, state: &mut HeatState) {
 /// [`Nodal::follow`]: crate::heat::tensor::mesh::nodal::Nodal::follow
 fn follow(layout: &HeatLayout, from: Option<&[f64]>, next: &mut HeatState, allowed: [f64; 2]) {
     let HeatState { values, rows, range, .. } = next;
-    let count = layout.bodies().map(|body| body.line.len());
+    let count = layout.bodies().map(|body| body.streamline.len());
     if rows.len() != count[0] + count[1] {
         rows.clear();
         rows.resize(count[0] + count[1], RowBounds::UNKNOWN);

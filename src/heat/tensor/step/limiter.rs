@@ -50,7 +50,7 @@ fn negate(field: &mut [f64], rows: &mut [RowBounds]) {
 
 /// Raises all nodes to `floor`, and tells whether both bodies have the heat for it; `rows` is what is known of them.
 fn raise(layout: &HeatLayout, field: &mut [f64], rows: &mut [RowBounds], floor: f64, values: &mut Vec<f64>) -> bool {
-    let rows: [_; 2] = rows.split_at_mut(layout.wheel.line.len()).into();
+    let rows: [_; 2] = rows.split_at_mut(layout.wheel.streamline.len()).into();
     let mut bodies = layout.bodies().into_iter().zip(layout.split_mut(field)).zip(rows);
     bodies.all(|((body, field), rows)| raise_body(body, field, rows, floor, values) <= 0.0)
 }
@@ -72,7 +72,7 @@ fn raise_body(body: &HeatBody, field: &mut [f64], rows: &mut [RowBounds], floor:
     values.resize(2 * size, 0.0);
     let (raised, change) = values.split_at_mut(size);
     let mut poor = Vec::new();
-    let weighted = field.chunks_exact_mut(nm).zip(&body.line.weights);
+    let weighted = field.chunks_exact_mut(nm).zip(&body.streamline.weights);
     for (i, ((row, weight), known)) in weighted.zip(&mut *rows).enumerate() {
         if known.range()[0] >= floor {
             continue;
@@ -129,15 +129,15 @@ fn raise_column(values: &mut [f64], weights: &[f64]) -> f64 {
 /// Takes `lack` [K m²] from the rows nearest to the row `i`, all of which lie above the floor, and returns the rest
 /// that is still lacking.
 fn take_beside(body: &HeatBody, field: &mut [f64], floor: f64, i: usize, mut lack: f64) -> f64 {
-    let (nm, n) = (body.nodal.modes(), body.line.len());
-    let closed = body.line.closed > 0.0;
+    let (nm, n) = (body.nodal.modes(), body.streamline.len());
+    let closed = body.streamline.closed > 0.0;
     let farthest = if closed { n.div_ceil(2) } else { n };
     for distance in 1..farthest {
         let (before, after) = (i.checked_sub(distance), Some(i + distance).filter(|&k| k < n));
         let around = |k: usize| Some(k % n).filter(|_| closed);
         let near = [before.or_else(|| around(i + n - distance)), after.or_else(|| around(i + distance))];
         let has = near.map(|k| {
-            k.map_or(0.0, |k| body.line.weights[k] * row_excess(body, &field[k * nm..][..nm], floor).max(0.0))
+            k.map_or(0.0, |k| body.streamline.weights[k] * row_excess(body, &field[k * nm..][..nm], floor).max(0.0))
         });
         let total = has[0] + has[1];
         let share = if total > lack { lack / total } else { 1.0 };

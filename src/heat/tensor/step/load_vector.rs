@@ -17,15 +17,15 @@ pub fn add_loads(stage: &StageOperators, layout: &HeatLayout, loads: &SurfaceLoa
     ];
     for ((body, transport, surface, share, sign, out), radiation) in bodies.into_iter().zip(&loads.radiation) {
         surface.clear();
-        surface.resize(body.line.len(), 0.0);
-        let first = body.line.zone;
+        surface.resize(body.streamline.len(), 0.0);
+        let first = body.streamline.zone;
         for (e, q) in bearing(&loads.friction) {
             let share = share * loads.friction_share;
-            transport.add_load(&body.line, first + e, [share * q[0], share * q[1]], surface);
+            transport.add_load(&body.streamline, first + e, [share * q[0], share * q[1]], surface);
         }
         for (e, q) in bearing(&loads.reversible) {
             let q = [sign * q[0], sign * q[1]];
-            transport.add_conducted(&body.line, first + e, q, loads.conductance[e], surface);
+            transport.add_conducted(&body.streamline, first + e, q, loads.conductance[e], surface);
         }
         body.add_surface_load(0, surface, out);
         if let Some((node, stream)) = transport.entry
@@ -33,13 +33,13 @@ pub fn add_loads(stage: &StageOperators, layout: &HeatLayout, loads: &SurfaceLoa
         {
             body.add_load(node, &[stream * loads.arriving], &body.modes.content, out);
         }
-        if body.line.closed > 0.0 {
+        if body.streamline.closed > 0.0 {
             loads.sources.add(layout, transport, surface, out);
         }
         if !radiation.load.is_empty() {
             surface.fill(0.0);
-            for (e, h) in body.line.lengths.iter().enumerate() {
-                transport.add_load(&body.line, e, [*h, 0.5 * h], surface);
+            for (e, h) in body.streamline.lengths.iter().enumerate() {
+                transport.add_load(&body.streamline, e, [*h, 0.5 * h], surface);
             }
             body.add_load(0, surface, &radiation.load, out);
         }

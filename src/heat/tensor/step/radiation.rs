@@ -32,7 +32,7 @@ impl Radiation {
         }
         let modes = &body.modes;
         body.integrate(field, sums);
-        let length: f64 = body.line.weights.iter().sum();
+        let length: f64 = body.streamline.weights.iter().sum();
         load.resize(modes.len(), 0.0);
         let (strength, mut slope) = (thermal.emissivity * STEFAN_BOLTZMANN, 0.0);
         for (row, exposed) in modes.shapes.row_iter().zip(&modes.exposed) {

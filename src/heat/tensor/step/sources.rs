@@ -24,9 +24,13 @@ impl SourceLoads {
         for &HeatSource { place, heat } in sources {
             finite("heat of a source", heat)?;
             match place {
-                HeatPlace::Tread { angle, width } => {
-                    add_arc(&layout.wheel.line, layout.config.wheel.radius, [angle, width], heat, &mut self.tread)?
-                }
+                HeatPlace::Tread { angle, width } => add_arc(
+                    &layout.wheel.streamline,
+                    layout.config.wheel.radius,
+                    [angle, width],
+                    heat,
+                    &mut self.tread,
+                )?,
             }
         }
         Ok(())
@@ -44,7 +48,7 @@ impl SourceLoads {
             if !moments.is_empty() {
                 along.fill(0.0);
                 for (e, q) in bearing(moments) {
-                    transport.add_load(&wheel.line, e, q, along);
+                    transport.add_load(&wheel.streamline, e, q, along);
                 }
                 wheel.add_load(0, along, modes, out);
             }
@@ -56,7 +60,7 @@ impl SourceLoads {
 /// Adds the moments of `heat` [W/m] on an arc around the `angle` \[rad] of the `width` \[rad] along a closed streamline of the
 /// given `radius` \[m].
 fn add_arc(
-    line: &Streamline,
+    streamline: &Streamline,
     radius: f64,
     [angle, width]: [f64; 2],
     heat: f64,
@@ -66,12 +70,12 @@ fn add_arc(
     if !(width > 0.0 && width <= 2.0 * PI) {
         return Err(HeatError::Input { name: "width of a heat source", value: width });
     }
-    out.resize(line.len(), [0.0; 2]);
+    out.resize(streamline.len(), [0.0; 2]);
     let length = width * radius;
     let middle = angle.rem_euclid(2.0 * PI) * radius;
-    for (e, h) in line.lengths.iter().enumerate() {
+    for (e, h) in streamline.lengths.iter().enumerate() {
         for turn in -2..=1 {
-            let start = line.nodes[e] - f64::from(turn) * line.closed;
+            let start = streamline.nodes[e] - f64::from(turn) * streamline.closed;
             let low = ((middle - 0.5 * length - start) / h).clamp(0.0, 1.0);
             let high = ((middle + 0.5 * length - start) / h).clamp(0.0, 1.0);
             if high > low {

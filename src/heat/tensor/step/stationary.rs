@@ -96,7 +96,7 @@ fn passing(heat: &Heat, speeds: [f64; 2], exchange: &Exchange, tread: f64) -> Re
     let (body, mut mean) = (&layout.wheel, Vec::new());
     let [wheel, _] = layout.split_mut(&mut field);
     body.integrate(wheel, &mut mean);
-    mean.iter_mut().for_each(|sum| *sum /= body.line.closed);
+    mean.iter_mut().for_each(|sum| *sum /= body.streamline.closed);
     for row in wheel.chunks_exact_mut(body.modes.len()) {
         row.iter_mut().zip(&mean).for_each(|(value, mean)| *value -= mean);
     }
