@@ -36,6 +36,7 @@ BRAKE = {"time": [0, 0.02, 0.2], "brake.torque": [0, 40e3, 40e3]}
 BLOCKS = {"time": [0, 0.1, 0.3], "drive.tread_heat": [0, 40e3, 40e3], "drive.moment": [0, -5000, -5000]}
 RISING = {"time": [0, 0.1, 0.3], "rail.elevation": [0, 0.0005, 0], "rail.slope": [0, 0.01, 0.02]}
 LIFTED = {"time": [0, 0.05, 0.1, 0.2], "drive.load": [100e3, 0, 0, 100e3]}
+HEAVY = {"time": [0, 0.06, 0.12], "drive.load": [100e3, 500e3, 100e3], "drive.moment": [-5000, -5000, -5000]}
 STANDSTILL = {"time": [0, 0.2, 0.4], "drive.velocity": [0.5, -0.5, 0], "brake.torque": [0, 0, 20e3]}
 
 
@@ -93,6 +94,13 @@ CASES = {
     ),
     "lifted": ("railway", {"mesh.elements_per_half_width": 10}, LIFTED, 1e-3, 0.2),
     "standstill": ("railway", DRAWN | {"initial.velocity": 0.5, "initial.creepage": 0}, STANDSTILL, 1e-3, 0.4),
+    "heavy": ("railway", {}, HEAVY, 1e-3, 0.12),
+    "hot_and_wide": ("railway", SPEEDS | {"initial.velocity": 160 / 3.6}, locked(160 / 3.6), 1e-3, 0.2),
+    "ellipse": ("railway_ellipse", {}, VARYING, 1e-3, 0.1),
+    "ellipse_heavy": ("railway_ellipse", {}, HEAVY, 1e-3, 0.12),
+    "ellipse_locked": ("railway_ellipse", {"initial.velocity": 16.7}, BRAKE, 1e-3, 0.2),
+    "ellipse_standstill": ("railway_ellipse", DRAWN | {"initial.velocity": 0.5, "initial.creepage": 0}, STANDSTILL, 1e-3, 0.4),
+    "rows": ("railway_s1002_3mm", {}, VARYING, 1e-3, 0.1),
     "hub_height": (
         "railway",
         {"control.vertical": "displacement"},
