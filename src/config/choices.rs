@@ -88,7 +88,8 @@ impl Response {
 }
 
 choice! {
-    /// Solver of the contact.
+    /// Kind of nodes on which the contact is solved: `patch` are the points of `contact::series`, which move with a
+    /// single smooth patch, `grid` the nodes of `contact::active_set`; `contact::choice` goes from one to the other.
     pub enum ContactMethod named "ContactMethod", "How contact forces are found" {
         Auto = "auto", "on the patch while it is single and smooth, otherwise on the grid";
         Grid = "grid", "on a grid of paired surface nodes";

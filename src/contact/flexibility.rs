@@ -39,8 +39,8 @@ const LEGENDRE: [ByPowers; POINTS] = [
 pub struct Between {
     /// Displacements \[m] by unit moments.
     pub displacement: ByMoments,
-    /// Strains times the half-length of the displaced line \[m]; no derivatives of the former, so that forces do no work
-    /// on the slopes of their own displacements.
+    /// Strains times the half-length of the displaced line \[m]; no derivatives of the former, so that forces do no
+    /// work on the slopes of their own displacements.
     pub strain: ByMoments,
     /// Derivative of the displacement by the size of the displaced line while the forces stay where they are \[m].
     pub growth: ByMoments,
@@ -76,8 +76,8 @@ pub struct InPatch<'a> {
 
 impl PatchFlexibility {
     /// That of half-spaces with a shear modulus \[Pa] and Poisson's ratio \[1] under lines on `tiles`; with `mirrored`
-    /// those beside the middle stand for a symmetric pair. Besides, for every line the logarithm of the distance over 1 m
-    /// at which a force of its own no longer displaces it by more than the mean over all lines.
+    /// those beside the middle stand for a symmetric pair. Besides, for every line the logarithm of the distance over 1
+    /// m at which a force of its own no longer displaces it by more than the mean over all lines.
     pub fn new(tiles: &[Tile], mirrored: bool, (shear_modulus, nu): (f64, f64)) -> (Self, Vec<f64>) {
         let (projection, factor, count) = (LegendreProjection::new(), 1.0 / (PI * shear_modulus), tiles.len());
         let beside = |tile: &Tile| mirrored && tile.edges[0] + tile.edges[1] > LEAST_OFFSET * tile.width();
@@ -188,8 +188,8 @@ impl Field {
     }
 }
 
-/// Changes of the slip [m/s] with the displacement of a field, which has the weight `rate` in its rate [1/s], and with its
-/// strain: half of the sum `speed` of the speeds of both surfaces [m/s] carries it.
+/// Changes of the slip [m/s] with the displacement of a field, which has the weight `rate` in its rate [1/s], and with
+/// its strain: half of the sum `speed` of the speeds of both surfaces [m/s] carries it.
 pub fn slip_of_field([rate, speed]: [f64; 2], half_length: f64) -> [f64; 2] {
     [rate, -0.5 * speed / half_length]
 }
@@ -295,8 +295,8 @@ mod tests {
         edges.windows(2).zip([6.0, 5.0, 3.0]).map(tile).collect()
     }
 
-    /// Betti: a displacement by the forces of another line does the same work as theirs on that by the own ones, and forces
-    /// do none on the strains that they cause together.
+    /// Betti: a displacement by the forces of another line does the same work as theirs on that by the own ones, and
+    /// forces do none on the strains that they cause together.
     #[test]
     fn works_of_two_lines_on_each_other_are_the_same_and_a_load_moves_along_without_work() {
         let tiles = strips(1e-3);

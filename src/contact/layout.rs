@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Smallest load for which lines are laid out, over that of the description \[1]. Under a smaller one they keep that layout,
-/// with which they are too soft.
+/// Smallest load for which lines are laid out, over that of the description \[1]. Under a smaller one they keep that
+/// layout, with which they are too soft.
 const LEAST: f64 = 1e-3;
 
 /// Length of lines that stay over that under their load on which they feel each other's tangential forces \[1].
@@ -45,7 +45,8 @@ pub struct PatchMaterial {
     pub poissons_ratio: f64,
 }
 
-/// A patch of contact lines, or several ones side by side, whose size follows from its load as that of an ellipse does: lengths with its third root.
+/// A patch of contact lines, or several ones side by side, whose size follows from its load as that of an ellipse does:
+/// lengths with its third root.
 ///
 /// Every line is a plane contact of the radius R of the wheel with a flexibility of its own. Of the normal one the
 /// factor κ is that with which the half-length belongs to the load of the line, `a² = 4κRP`. Its reach L is that with
@@ -56,8 +57,8 @@ pub struct PatchMaterial {
 /// Derivation: `docs/theory/lines.md`.
 #[derive(Clone, Debug)]
 pub struct PatchLayout {
-    /// Lines under the load `load`, at positions about the centre of load; on a symmetric patch, both of a pair stand for
-    /// one of twice the width.
+    /// Lines under the load `load`, at positions about the centre of load; on a symmetric patch, both of a pair stand
+    /// for one of twice the width.
     rows: Vec<PatchRow>,
     /// Free widths before them \[m].
     gaps: Vec<f64>,
@@ -105,8 +106,8 @@ impl PatchLayout {
     }
 
     /// Patches of rows, of which neighbours that touch and differ least share a line where there are more than `lines`.
-    /// `shapes` are the ellipses with the second moments of area of each patch; `radius` and `width` \[m] are those of wheel
-    /// and bodies.
+    /// `shapes` are the ellipses with the second moments of area of each patch; `radius` and `width` \[m] are those of
+    /// wheel and bodies.
     pub fn rows(
         rows: Vec<PatchRow>,
         shapes: &[EquivalentEllipse],
@@ -185,7 +186,8 @@ impl PatchLayout {
         &self.flexibility
     }
 
-    /// Free widths between every line and the one before it under the load of the description \[m]; zero where they touch.
+    /// Free widths between every line and the one before it under the load of the description \[m]; zero where they
+    /// touch.
     pub fn gaps(&self) -> &[f64] {
         &self.gaps
     }
@@ -219,9 +221,9 @@ impl PatchLayout {
     }
 
     /// Lines under a load \[N] that stay where they are while the patch changes: all are equally stiff, as under a flat
-    /// punch, and the outer ones lift off first. Waves of the surfaces act on them as on the patch. Lines that may become
-    /// as long as `longest` \[m], half of that counted, reach so far that none is pushed up by its own forces; outer ones
-    /// are then less stiff.
+    /// punch, and the outer ones lift off first. Waves of the surfaces act on them as on the patch. Lines that may
+    /// become as long as `longest` \[m], half of that counted, reach so far that none is pushed up by its own forces;
+    /// outer ones are then less stiff.
     pub fn staying(&self, load: f64, longest: f64) -> Vec<LineLayout> {
         let scale = libm::cbrt(self.load_of(load) / self.load);
         let rows: Vec<_> = rows::scaled(&self.rows, scale).collect();
@@ -235,8 +237,8 @@ impl PatchLayout {
         rows.iter().zip(lengths).enumerate().map(line).collect()
     }
 
-    /// A line of a patch that is `scale` times as large as that of the description, with the change `stiffness` of its load
-    /// per width with the approach [N/m²].
+    /// A line of a patch that is `scale` times as large as that of the description, with the change `stiffness` of its
+    /// load per width with the approach [N/m²].
     fn line(&self, i: usize, row: &PatchRow, scale: f64, stiffness: f64) -> LineLayout {
         let PatchRow { position, width, half_length, line_load, .. } = *row;
         let approach = scale * scale * self.approach;

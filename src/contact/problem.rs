@@ -263,7 +263,7 @@ pub trait LayoutsOfLoad {
     /// Begins a search with the layout of the problem.
     fn begin(&self);
 
-    /// Layout under a load of all lines [N/m], which the search goes on with; its gaps are the changes from those of the
-    /// problem. `None`: that at hand is the one, or too far from it.
+    /// Layout under a load of all lines [N/m], which the search goes on with; its gaps are the changes from those of
+    /// the problem. `None`: that at hand is the one, or too far from it.
     fn under(&self, load: f64) -> Option<Vec<LineLayout>>;
 }

@@ -45,8 +45,8 @@ pub trait ContactSolver: Send + Sync {
         a.solver == b.solver
     }
 
-    /// The lines of a contact on other nodes, on which [`Self::solve`] may find it where it has not on theirs; all are on
-    /// the same ones. `None` if there are no others.
+    /// The lines of a contact on other nodes, on which [`Self::solve`] may find it where it has not on theirs; all are
+    /// on the same ones. `None` if there are no others.
     fn on_other_nodes(&self, _lines: &[&ContactState]) -> Option<Vec<ContactState>> {
         None
     }

@@ -74,8 +74,8 @@ impl Hertz {
     }
 }
 
-/// Approach \[m] of two half-spaces with the modulus `contact_modulus` `E*` \[Pa] that touch under a load \[N] in an ellipse
-/// with the half axes `a` along and `b` across the direction of rolling \[m].
+/// Approach \[m] of two half-spaces with the modulus `contact_modulus` `E*` \[Pa] that touch under a load \[N] in an
+/// ellipse with the half axes `a` along and `b` across the direction of rolling \[m].
 pub fn approach([a, b]: [f64; 2], load: f64, contact_modulus: f64) -> f64 {
     1.5 * load * elliptic::first_kind((a / b).powi(2)) / (PI * b * contact_modulus)
 }

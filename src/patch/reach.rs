@@ -1,7 +1,7 @@
 //! Distances at which the displacement of contact lines by their own forces ends, from the stiffness of all together.
 //!
-//! A line of the half-length `a_k` and the weight `w_k` whose own displacement is a logarithm of the reach `L_k` has the
-//! stiffness `w_k/ln(2L_k/a_k)`.
+//! A line of the half-length `a_k` and the weight `w_k` whose own displacement is a logarithm of the reach `L_k` has
+//! the stiffness `w_k/ln(2L_k/a_k)`.
 
 /// Relative step that ends the search for a common length: it converges quadratically, so the result is exact.
 const CLOSE: f64 = 1e-10;
@@ -10,8 +10,8 @@ const MOST_STEPS: usize = 100;
 /// Halvings of the interval in which the ratio of lengths lies: to round-off.
 const HALVINGS: usize = 60;
 
-/// Length `L` \[m] with which contact lines of the half-lengths `a_k` \[m] and the weights `w_k` together are as stiff as
-/// they have to be, `Σ w_k/ln(2L/a_k) = stiffness`. `lines` are weights and half-lengths of at least one line, the
+/// Length `L` \[m] with which contact lines of the half-lengths `a_k` \[m] and the weights `w_k` together are as stiff
+/// as they have to be, `Σ w_k/ln(2L/a_k) = stiffness`. `lines` are weights and half-lengths of at least one line, the
 /// stiffness is positive and has the unit of the weights.
 pub fn common_length(stiffness: f64, lines: impl Iterator<Item = [f64; 2]>) -> f64 {
     let lines: Vec<_> = lines.collect();
@@ -34,9 +34,9 @@ pub fn common_length(stiffness: f64, lines: impl Iterator<Item = [f64; 2]>) -> f
     0.5 * longest * libm::exp(t)
 }
 
-/// Lengths `L_k` \[m] in proportion to the half-lengths of the lines, with which all are equally stiff, but none shorter
-/// than `least` \[m], and together as stiff as in [`common_length`]. Where that asks for shorter ones, all have the
-/// common length. `lines` are weights and half-lengths \[m].
+/// Lengths `L_k` \[m] in proportion to the half-lengths of the lines, with which all are equally stiff, but none
+/// shorter than `least` \[m], and together as stiff as in [`common_length`]. Where that asks for shorter ones, all have
+/// the common length. `lines` are weights and half-lengths \[m].
 pub fn proportional_lengths(stiffness: f64, lines: &[[f64; 2]], least: f64) -> Vec<f64> {
     let common = common_length(stiffness, lines.iter().copied());
     let least = least.min(common);

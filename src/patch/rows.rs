@@ -79,10 +79,11 @@ pub fn centre_of_load(rows: &[PatchRow]) -> f64 {
     rows.iter().map(|row| row.width * row.line_load * row.position).sum::<f64>() / load(rows)
 }
 
-/// At most `count` rows, but at least one for each patch, with the widths, areas and loads of all given ones, which lie in
-/// ascending order: neighbours that touch become one, each time those two whose mean pressures `p` differ least, in the measure `(p₁ − p₂)² g₁g₂/(g₁ + g₂)` of
-/// Ward with the weights `g = F p³`, `F` the load of a row. With these weights peaks of pressure keep lines of their own:
-/// on seven lines, two real patches keep their largest pressure to 0.7 %, with the weights `F` to 3.6 %.
+/// At most `count` rows, but at least one for each patch, with the widths, areas and loads of all given ones, which lie
+/// in ascending order: neighbours that touch become one, each time those two whose mean pressures `p` differ least, in
+/// the measure `(p₁ − p₂)² g₁g₂/(g₁ + g₂)` of Ward with the weights `g = F p³`, `F` the load of a row. With these
+/// weights peaks of pressure keep lines of their own: on seven lines, two real patches keep their largest pressure to
+/// 0.7 %, with the weights `F` to 3.6 %.
 pub fn merged(mut rows: Vec<PatchRow>, count: usize) -> Vec<PatchRow> {
     while rows.len() > count.max(1) {
         let touching = rows.windows(2).enumerate().filter(|(_, pair)| pair[1].gap == 0.0);

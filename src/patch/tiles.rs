@@ -29,8 +29,8 @@ pub struct TileInfluence {
     pub displacement: f64,
     /// Its derivative by x [1/m].
     pub strain: f64,
-    /// Its derivative by the size of the displaced tile, whose edges move away from z = 0 in proportion, while the force
-    /// stays where it is \[1].
+    /// Its derivative by the size of the displaced tile, whose edges move away from z = 0 in proportion, while the
+    /// force stays where it is \[1].
     pub growth: f64,
 }
 

@@ -104,8 +104,8 @@ impl<'a> Axes<'a> {
         equation
     }
 
-    /// Moment \[N] that is missing from the balance of the rotation in the present iterate; 0 where it is prescribed or held.
-    /// `forces` is memory for all ports of all lines.
+    /// Moment \[N] that is missing from the balance of the rotation in the present iterate; 0 where it is prescribed or
+    /// held. `forces` is memory for all ports of all lines.
     pub fn missing_moment(&self, lines: &[ContactLine], forces: &mut [Vec<f64>]) -> f64 {
         let axis = Axis::Rotation;
         if !self.seeks(axis) || self.holds(axis) {
@@ -149,7 +149,7 @@ fn add_line(axis: Axis, line: &ContactLine, forces: &mut [f64], constant: &mut f
         }
     }
     if axis == Axis::Rotation {
-        *constant += share * (line.problem.radius() * line.retarded.force.iter().sum::<f64>());
+        *constant += share * (line.problem.radius() * line.iterate.retarded.force.iter().sum::<f64>());
     }
     for (i, pull) in line.given.layers.pull[0].iter().enumerate() {
         *constant += share * (bodies.momentum[(axis.number(), grid.port(i))] * pull);

@@ -177,13 +177,13 @@ impl Displaced {
         add_columns(1.0, columns, 2 * grid.ports(), mean, ports);
         gaps.resize_with(lines.len(), Vec::new);
         for ((line, forces), gaps) in lines.iter().zip(forces).zip(gaps) {
-            let of_ports = line.rim.shared[first..].iter().step_by(2);
+            let of_ports = line.iterate.rim.shared[first..].iter().step_by(2);
             let mut turned: f64 = of_ports.zip(&*mean).map(|(by_force, force)| by_force * force).sum();
             alone.clear();
             alone.resize(grid.ports() / 2, 0.0);
             if let Some(of_line) = line.problem.alone() {
                 match component {
-                    0 => turned += dot(&line.rim.alone[first / 2..][..grid.len()], forces),
+                    0 => turned += dot(&line.iterate.rim.alone[first / 2..][..grid.len()], forces),
                     _ => of_line.displace(1, first / 2, forces, alone),
                 }
             }

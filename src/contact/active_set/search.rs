@@ -134,7 +134,7 @@ impl<'a> ActiveSet<'a> {
             self.find_coefficients()?;
         }
         self.lines.iter().try_for_each(zone::check)?;
-        self.lines.into_iter().for_each(finish::finish);
+        self.lines.iter_mut().for_each(finish::finish);
         Ok(())
     }
 
@@ -156,7 +156,8 @@ impl<'a> ActiveSet<'a> {
                 }
             }
             self.solve_linear()?;
-            let turned = self.lines.iter().any(|line| (line.frame.rim_angle - line.rim.value).abs() > ANGLE_TOLERANCE);
+            let turned =
+                self.lines.iter().any(|line| (line.frame.rim_angle - line.iterate.rim.value).abs() > ANGLE_TOLERANCE);
             let changed = self.update_states(iteration);
             // Once states and edges are settled, only motions and rim angle are refined: smooth functions of the data.
             decided += usize::from(!settled);
@@ -246,7 +247,7 @@ impl<'a> ActiveSet<'a> {
         let change = self.lines.iter_mut().map(ContactLine::update_upwind).fold(0.0, f64::max);
         let settled = change <= self.problem.edge_tolerance;
         if settled {
-            self.lines.iter_mut().for_each(|line| line.upwind.restore());
+            self.lines.iter_mut().for_each(|line| line.iterate.upwind.restore());
         }
         settled
     }

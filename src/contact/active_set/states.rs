@@ -1,10 +1,10 @@
 //! New states of the nodes from forces, gaps and slips.
 //!
 //! - A node is closed if `λ_n − c g > 0`.
-//! - A stuck node slips when `|λ_t| > μ λ_n`, and so does a [brake](crate::contact::brake) beyond its strength; a slipping node
-//!   whose friction force no longer opposes the slip sticks, so that a reversal of slip always passes through stick; a
-//!   node that closes takes the state of its nearest closed neighbour and sticks where it has none, unless the surfaces
-//!   run against each other. Without these rules the iteration cycles.
+//! - A stuck node slips when `|λ_t| > μ λ_n`, and so does a [brake](crate::contact::brake) beyond its strength; a
+//!   slipping node whose friction force no longer opposes the slip sticks, so that a reversal of slip always passes
+//!   through stick; a node that closes takes the state of its nearest closed neighbour and sticks where it has none,
+//!   unless the surfaces run against each other. Without these rules the iteration cycles.
 
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::NodeStatus;

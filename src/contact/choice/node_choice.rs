@@ -20,8 +20,8 @@ pub struct NodeChoice {
 }
 
 impl NodeChoice {
-    /// Contact on a `narrow` grid, on a `wide` one whose innermost nodes are those of the narrow one, and on `points` for
-    /// smooth patches.
+    /// Contact on a `narrow` grid, on a `wide` one whose innermost nodes are those of the narrow one, and on `points`
+    /// for smooth patches.
     pub fn new(narrow: ContactGrid, wide: Option<ContactGrid>, points: Option<SeriesSolver>) -> Self {
         Self { points, narrow: ActiveSetSolver::new(narrow), wide: wide.map(ActiveSetSolver::new) }
     }

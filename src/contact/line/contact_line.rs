@@ -15,20 +15,36 @@ use crate::contact::problem::LineProblem;
 use crate::contact::traction::Traction;
 use nalgebra::DVector;
 
-/// Buffers of a line; nothing in them outlives a solution.
+/// Memory of a line; nothing in it outlives a solution.
 #[derive(Default)]
 pub struct LineScratch {
     /// Known part of the problem.
     pub given: KnownPart,
+    /// The rest.
+    pub iterate: LineIterate,
+}
+
+/// Quantities of a line that follow from forces, states and motions in the present iterate.
+#[derive(Default)]
+pub struct LineIterate {
     /// Forces of the other lines.
     pub others: OtherLines,
-    rim: RimAngleRow,
-    upwind: UpwindRows,
-    retarded: Retarded,
-    overlap: Vec<f64>,
-    lift: Vec<f64>,
-    centred_slip: Vec<f64>,
-    displaced: [Vec<f64>; 2],
+    /// Rim angle as an affine function of the forces.
+    pub rim: RimAngleRow,
+    /// Upwind differences of the slip.
+    pub upwind: UpwindRows,
+    /// Forces of retarded layers.
+    pub retarded: Retarded,
+    /// Depth by which yielding candidates have given way in the step; zero elsewhere \[m].
+    pub overlap: Vec<f64>,
+    /// Height at the candidates that the flexibility of the line alone would have if it were the same in both
+    /// directions, less that which it has \[m]; empty: it is.
+    pub lift: Vec<f64>,
+    /// Slip velocity of the candidates with centred differences [m/s]: it dissipates. The upwind one counts its own
+    /// numerical dissipation.
+    pub centred_slip: Vec<f64>,
+    /// Nodal forces of one component [N/m], and the displacement by them \[m].
+    pub displaced: [Vec<f64>; 2],
 }
 
 impl LineScratch {
@@ -44,7 +60,7 @@ impl LineScratch {
     ) {
         self.given.find(grid, problem, state, forces, accelerations);
         let ports = if problem.bodies.alone.is_some() { grid.ports() } else { 0 };
-        self.others.reset(ports);
+        self.iterate.others.reset(ports);
     }
 }
 
@@ -60,8 +76,7 @@ pub struct ContactLine<'a> {
     pub problem: &'a LineProblem<'a>,
     /// Known part of the problem.
     pub given: &'a KnownPart,
-    /// Forces of the other lines in the present iterate.
-    pub others: &'a mut OtherLines,
+    pub iterate: &'a mut LineIterate,
     pub state: &'a mut GridState,
     pub history: &'a mut LineHistory,
     pub traction: &'a mut Traction,
@@ -72,21 +87,6 @@ pub struct ContactLine<'a> {
     /// Rim angle that belongs to the surface displacements at hand \[rad]: in the first iteration those of the start,
     /// while that of [`Self::frame`] is predicted.
     pub surface_angle: f64,
-    /// Rim angle as an affine function of the forces.
-    pub rim: &'a mut RimAngleRow,
-    /// Upwind differences of the slip.
-    pub upwind: &'a mut UpwindRows,
-    /// Forces of retarded layers.
-    pub retarded: &'a mut Retarded,
-    /// Depth by which yielding candidates have given way in the step; zero elsewhere \[m].
-    pub overlap: &'a mut Vec<f64>,
-    /// See [`super::observe::WheelShape::lift`].
-    pub lift: &'a mut Vec<f64>,
-    /// Slip velocity of the candidates with centred differences [m/s]: it dissipates. The upwind one counts its own
-    /// numerical dissipation.
-    pub centred_slip: &'a mut Vec<f64>,
-    /// Nodal forces of one component [N/m], and the displacement by them \[m].
-    pub displaced: &'a mut [Vec<f64>; 2],
 }
 
 /// State, history, traction and elastic energy from which a line starts, and which it changes.
@@ -106,41 +106,23 @@ impl<'a> ContactLine<'a> {
         scratch: &'a mut LineScratch,
     ) -> Self {
         let LineStart { state, history, traction, energy } = start;
-        let LineScratch { given, others, rim, upwind, retarded, overlap, lift, centred_slip, displaced } = scratch;
-        lift.clear();
+        let LineScratch { given, iterate } = scratch;
         if !problem.limits.is_limited() {
             state.yielded.fill(false);
         }
-        overlap.clear();
-        overlap.resize(grid.len(), 0.0);
-        centred_slip.resize(grid.len(), 0.0);
+        iterate.lift.clear();
+        iterate.overlap.clear();
+        iterate.overlap.resize(grid.len(), 0.0);
+        iterate.centred_slip.resize(grid.len(), 0.0);
         let given = &*given;
         let frame = RimFrame { grid, radius: problem.surfaces.radius, sagitta: &given.sagitta, rim_angle: 0.0 };
-        Self {
-            grid,
-            problem,
-            given,
-            others,
-            state,
-            history,
-            traction,
-            energy,
-            frame,
-            surface_angle: 0.0,
-            rim,
-            upwind,
-            retarded,
-            overlap,
-            lift,
-            centred_slip,
-            displaced,
-        }
+        Self { grid, problem, given, iterate, state, history, traction, energy, frame, surface_angle: 0.0 }
     }
 
     /// Normal force of all lines per metre of the bodies' width [N/m].
     pub fn load_of_all(&self) -> f64 {
         let normal = |forces: &DVector<f64>| forces.iter().skip(1).step_by(2).sum::<f64>();
-        normal(&self.others.forces) + self.problem.share * normal(&self.traction.port_forces)
+        normal(&self.iterate.others.forces) + self.problem.share * normal(&self.traction.port_forces)
     }
 
     /// Nodal normal force at candidate `i` [N/m].
@@ -195,18 +177,18 @@ impl<'a> ContactLine<'a> {
     pub fn update_upwind(&mut self) -> f64 {
         let (grid, forces, to_right) = (self.grid, &self.traction.port_forces, self.upstream_right());
         let pressure = |i: usize| forces[grid.port(i) + 1] * grid.share(i);
-        self.upwind.update(&self.state.status, pressure, to_right)
+        self.iterate.upwind.update(&self.state.status, pressure, to_right)
     }
 
     /// Takes the forces of retarded layers in the present iterate; returns the change of their sum [N/m].
     pub fn update_retarded(&mut self) -> f64 {
         let own = LineForces { contact: &self.traction.port_forces, pull: &self.given.layers.pull };
-        self.retarded.update(self.grid, self.problem, self.others.mean(self.problem.share, own))
+        self.iterate.retarded.update(self.grid, self.problem, self.iterate.others.mean(self.problem.share, own))
     }
 
     /// Slopes of gap and surfaces in the present iterate.
     pub fn slopes(&self) -> Slopes<'_> {
         let KnownPart { rail_slope, depth, .. } = self.given;
-        Slopes { grid: self.grid, gap: &self.state.gap, overlap: self.overlap, rail_slope, depth }
+        Slopes { grid: self.grid, gap: &self.state.gap, overlap: &self.iterate.overlap, rail_slope, depth }
     }
 }

@@ -17,7 +17,7 @@ pub fn pulls(grid: &ContactGrid, lines: &[LineProblem], scratch: &mut [LineScrat
             pulls.for_each(|(sum, pull)| add(other.share, pull, sum));
         }
         scratch[k].given.add_pulls_of_others(grid, &line.bodies.shared, &sum);
-        scratch[k].others.pull = sum;
+        scratch[k].iterate.others.pull = sum;
     }
 }
 
@@ -26,9 +26,9 @@ pub fn forces(lines: &mut [ContactLine]) {
     for k in 0..lines.len() {
         let (before, rest) = lines.split_at_mut(k);
         let [line, after @ ..] = rest else { return };
-        line.others.forces.fill(0.0);
+        line.iterate.others.forces.fill(0.0);
         for other in before.iter().chain(&*after) {
-            line.others.forces.axpy(other.problem.share, &other.traction.port_forces, 1.0);
+            line.iterate.others.forces.axpy(other.problem.share, &other.traction.port_forces, 1.0);
         }
     }
     fields(lines);
@@ -38,10 +38,10 @@ pub fn forces(lines: &mut [ContactLine]) {
 fn fields(lines: &mut [ContactLine]) {
     for line in &mut *lines {
         let forces = (0..line.grid.len()).map(|i| (i, line.tangential(i)));
-        line.others.moments = line.moments(forces);
+        line.iterate.others.moments = line.moments(forces);
     }
     for k in 0..lines.len() {
         let Some(patch) = lines[k].problem.patch else { return };
-        lines[k].others.field = patch.field(lines.iter().map(|line| &line.others.moments));
+        lines[k].iterate.others.field = patch.field(lines.iter().map(|line| &line.iterate.others.moments));
     }
 }

@@ -18,18 +18,18 @@ impl ContactLine<'_> {
 
     /// Displacement of the wheel less that of the rail at a candidate \[m].
     pub fn moved_by_lines(&self, i: usize) -> f64 {
-        let moved = |powers| at(&self.others.field.displacement, &powers);
+        let moved = |powers| at(&self.iterate.others.field.displacement, &powers);
         self.problem.patch.map_or(0.0, |patch| moved(patch.powers(self.grid.x[i])))
     }
 
     /// Strain of the wheel at a candidate \[1]; that of the rail is the opposite.
     pub fn stretch_by_lines(&self, i: usize) -> f64 {
         let Some(patch) = self.problem.patch else { return 0.0 };
-        0.5 * at(&self.others.field.strain, &patch.powers(self.grid.x[i])) / patch.half_length
+        0.5 * at(&self.iterate.others.field.strain, &patch.powers(self.grid.x[i])) / patch.half_length
     }
 
-    /// Slip [m/s] as a polynomial of the place by unit moments of the line number `by` of the patch; `None`: there is no
-    /// patch.
+    /// Slip [m/s] as a polynomial of the place by unit moments of the line number `by` of the patch; `None`: there is
+    /// no patch.
     pub fn slip_by_moments(&self, by: usize) -> Option<ByMoments> {
         let patch = self.problem.patch?;
         let between = patch.flexibility.between(patch.line, by);
@@ -40,8 +40,8 @@ impl ContactLine<'_> {
         }))
     }
 
-    /// Adds the change of the slip at a candidate with the tangential forces of a line of the patch to their coefficients
-    /// at the ports `window`.
+    /// Adds the change of the slip at a candidate with the tangential forces of a line of the patch to their
+    /// coefficients at the ports `window`.
     pub fn add_slip_by(&self, i: usize, by: &ContactLine, window: Range<usize>, forces: &mut [f64]) {
         let (Some(patch), Some(other)) = (self.problem.patch, by.problem.patch) else { return };
         let Some(by_moments) = self.slip_by_moments(other.line) else { return };

@@ -75,7 +75,8 @@ impl ContactGrid {
         self.cells[node - 1] + self.cells[node]
     }
 
-    /// Slope at candidate `i` of a displacement of the ports, by central differences \[1]: of its component x (0) or y (1).
+    /// Slope at candidate `i` of a displacement of the ports, by central differences \[1]: of its component x (0) or y
+    /// (1).
     pub fn slope(&self, u: &DVector<f64>, i: usize, component: usize) -> f64 {
         let port = self.port(i) + component;
         (u[port + 2] - u[port - 2]) / self.span(i)

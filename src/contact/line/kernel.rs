@@ -1,5 +1,5 @@
-//! Flexibility of a line for itself on the nodes of a grid: the discrete kernel `1/(n + ½)`, to which the edge-consistent
-//! slip rows belong (see [`super::streamline`]).
+//! Flexibility of a line for itself on the nodes of a grid: the discrete kernel `1/(n + ½)`, to which the
+//! edge-consistent slip rows belong (see [`super::streamline`]).
 
 use crate::analytic::digamma;
 use crate::contact::kernel::{LineKernel, Logarithm};
@@ -7,10 +7,10 @@ use crate::linalg::vectorised::quadratic_form;
 use nalgebra::{DMatrix, DVector};
 
 /// Logarithms of the distances of `nodes` over 1 m, with their signs reversed \[1]; `spacing` is the distance of the
-/// nodes in the middle \[m]. At neighbouring nodes their differences are those of the discrete kernel `1/(n + ½)`:
-/// `−ln h − ψ(n + ½)` with the digamma function ψ, the number n of cells between two nodes and their mean length h.
-/// Beyond the middle, where cells grow, h is that of the nodes at hand: with the spacing of the middle a node would give
-/// way by its own force the more, the longer its cells are.
+/// nodes in the middle \[m]. At neighbouring nodes their differences are those of the discrete kernel `1/(n + ½)`, so that
+/// they are `−ln h − ψ(n + ½)` with the digamma function ψ, the number n of cells between two nodes and their mean length
+/// h. Beyond the middle, where cells grow, h is that of the nodes at hand: with the spacing of the middle a node would
+/// give way by its own force the more, the longer its cells are.
 pub fn logarithms(nodes: &[f64], spacing: f64) -> DMatrix<f64> {
     let cells: Vec<f64> = nodes.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let width = |i: usize| {

@@ -1,7 +1,6 @@
 //! Displacements, gaps and slips of a line under given forces and rigid motions.
 
-use super::contact_line::ContactLine;
-use super::observe::{self, WheelShape};
+use super::contact_line::{ContactLine, LineIterate};
 use super::others::LineForces;
 use super::rim::RimFrame;
 use super::streamline::UpwindWeights;
@@ -43,16 +42,15 @@ impl ContactLine<'_> {
 
     /// Takes the rim angle as a function of the forces, about the present iterate.
     pub fn update_rim(&mut self) {
-        let Self { frame, problem, given, traction, rim, .. } = self;
-        rim.update(frame, problem, &given.displacement[0], &traction.port_forces);
+        let Self { frame, problem, given, traction, iterate, .. } = self;
+        iterate.rim.update(frame, problem, &given.displacement[0], &traction.port_forces);
     }
 
     /// Displacements, exact (bilinear) slips and gaps of the present forces and rigid motions; `accelerations` are
     /// those rigid ones that were not known before, `None` the others.
     pub fn evaluate(&mut self, accelerations: PerAxis<Option<f64>>) {
         self.displace(accelerations);
-        let load = self.load_of_all();
-        observe::lift(self.grid, self.problem, &self.traction.port_forces, load, self.lift, self.displaced);
+        self.lift();
         self.take_surface_angle();
         self.frame.rim_angle = self.surface_angle;
         let (grid, problem) = (self.grid, self.problem);
@@ -63,16 +61,16 @@ impl ContactLine<'_> {
             let port = grid.port(i);
             let [u_c, u_p] = &self.traction.surface;
             let excess = || self.traction.port_forces[port + 1] - self.given.strength.limit[i];
-            self.overlap[i] = if self.state.yielded[i] { self.creep(i) * excess() } else { 0.0 };
+            self.iterate.overlap[i] = if self.state.yielded[i] { self.creep(i) * excess() } else { 0.0 };
             if self.state.status[i].is_active() {
                 let relative = u_c[port] - u_p[port] + self.moved_by_lines(i);
                 let dynamic = problem.time.a0 * relative + self.given.slip_offset[i];
                 let slip = |[d_c, d_p]: [f64; 2]| v * (1.0 + d_p) - v_c - rim * d_c + dynamic;
-                let upwind = self.stretches(i, self.upwind.row(i), to_right);
-                self.centred_slip[i] = slip(self.centred_stretches(i));
+                let upwind = self.stretches(i, self.iterate.upwind.row(i), to_right);
+                self.iterate.centred_slip[i] = slip(self.centred_stretches(i));
                 (self.state.slip[i], self.state.gap[i]) = (slip(upwind), 0.0);
             } else {
-                (self.state.slip[i], self.centred_slip[i]) = (0.0, 0.0);
+                (self.state.slip[i], self.iterate.centred_slip[i]) = (0.0, 0.0);
                 self.state.gap[i] = self.given.gap[i] + self.frame.normal(u_c, i) - u_p[port + 1] + height;
             }
         }
@@ -80,7 +78,8 @@ impl ContactLine<'_> {
 
     /// Displacements of both surfaces, and the value of the affine rim angle.
     fn displace(&mut self, accelerations: PerAxis<Option<f64>>) {
-        let Self { problem, given, others, traction, rim, displaced, .. } = self;
+        let Self { problem, given, traction, iterate, .. } = self;
+        let LineIterate { others, rim, displaced, .. } = &mut **iterate;
         let bodies = &problem.bodies;
         let own = LineForces { contact: &traction.port_forces, pull: &given.layers.pull };
         let forces = others.mean(problem.share, own).contact.as_slice();
@@ -95,7 +94,7 @@ impl ContactLine<'_> {
         }
         rim.value = rim.constant + rim.shared.iter().zip(forces).map(|(t, f)| t * f).sum::<f64>();
         if let Some(alone) = problem.alone() {
-            let [forces, displaced] = &mut **displaced;
+            let [forces, displaced] = displaced;
             for component in 0..2 {
                 forces.clear();
                 forces.extend(traction.port_forces.iter().skip(component).step_by(2));
@@ -116,11 +115,46 @@ impl ContactLine<'_> {
         }
     }
 
-    /// Lever arms of the forces at candidate `i` about the hub centre \[m], see [`observe::lever_arms`].
+    /// Takes the height that the flexibility of the line alone lacks in lever arms, see [`LineIterate::lift`].
+    fn lift(&mut self) {
+        let (grid, problem, load) = (self.grid, self.problem, self.load_of_all());
+        let LineIterate { lift, displaced: [normal, displaced], .. } = &mut *self.iterate;
+        lift.clear();
+        let kernel = &problem.kernel;
+        let Some(alone) = problem.alone().filter(|_| kernel.tangential != kernel.normal) else { return };
+        lift.resize(grid.len(), problem.bodies.lift * load);
+        let first = grid.port(0) / 2;
+        normal.clear();
+        normal.extend((0..grid.len()).map(|i| self.traction.port_forces[grid.port(i) + 1]));
+        for (component, sign) in [(0, 1.0), (1, -1.0)] {
+            alone.displace(component, first, normal, displaced);
+            lift.iter_mut().zip(&displaced[first..]).for_each(|(lift, moved)| *lift += sign * moved);
+        }
+    }
+
+    /// Lever arms about the hub centre of the tangential and the normal force at candidate `i` \[m].
+    ///
+    /// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
+    /// hub, contact and friction. Derivation: `docs/theory/lever-arms.md`.
     pub fn lever_arms(&self, i: usize) -> [f64; 2] {
         let frame = RimFrame { rim_angle: self.surface_angle, ..self.frame };
-        let (radius, surface) = (self.problem.radius(), &self.traction.surface[0]);
-        let wheel = WheelShape { radius, frame: &frame, surface, lift: self.lift };
-        observe::lever_arms(wheel, self.slopes(), i)
+        let (radius, u, port) = (self.problem.radius(), &self.traction.surface[0], self.grid.port(i));
+        let lift = self.iterate.lift.get(i).copied().unwrap_or(0.0);
+        let along = self.grid.x[i] + frame.tangential(u, port) + radius * self.slopes().arm(i);
+        [radius - frame.normal(u, i) - lift, along]
+    }
+
+    /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
+    pub fn resultant(&self) -> PerAxis<f64> {
+        let mut sum = PerAxis::default();
+        for i in 0..self.grid.len() {
+            let (t, n) = (self.tangential(i), self.normal(i));
+            let [arm_t, arm_n] = self.lever_arms(i);
+            sum.travel += t + n * self.slopes().rail(i);
+            sum.height += n;
+            sum.rotation -= arm_t * t + arm_n * n;
+        }
+        sum.rotation -= self.problem.radius() * self.iterate.retarded.force.iter().sum::<f64>();
+        sum
     }
 }

@@ -1,15 +1,10 @@
 //! Traction read off a solution on the grid. It varies smoothly while the contact edges move between nodes.
 
 use super::grid::ContactGrid;
-use super::rim::RimFrame;
-use super::slopes::Slopes;
 use super::state::{GridState, NodeStatus, for_each_patch};
 use super::streamline::edge_offset;
-use crate::axes::PerAxis;
-use crate::contact::problem::LineProblem;
 use crate::contact::traction::Traction;
 use crate::piecewise::{Interval, Piecewise};
-use nalgebra::DVector;
 use std::ops::Range;
 
 /// Share of the peak above which nodes beside it take part in the fit of the pressure maximum [1].
@@ -18,55 +13,6 @@ const PEAK: f64 = 0.9;
 const FADING: f64 = 0.2;
 /// Least distance of the end of a profile from the outermost node of a patch [spacings].
 const MARGIN: f64 = 1e-3;
-
-/// The deformed wheel as lever arms know it.
-#[derive(Clone, Copy)]
-pub(in crate::contact) struct WheelShape<'a> {
-    /// Rolling radius [m].
-    pub radius: f64,
-    /// Frame of the rim.
-    pub frame: &'a RimFrame<'a>,
-    /// Surface displacement [m].
-    pub surface: &'a DVector<f64>,
-    /// Height at the candidates that the flexibility of the line alone would have if it were the same in both
-    /// directions, less that which it has [m]; empty: it is.
-    pub lift: &'a [f64],
-}
-
-/// Writes [`WheelShape::lift`] under the port forces of a line, and the load of all lines per metre of the bodies'
-/// width [N/m].
-pub(in crate::contact) fn lift(
-    grid: &ContactGrid,
-    problem: &LineProblem,
-    forces: &DVector<f64>,
-    load: f64,
-    lift: &mut Vec<f64>,
-    memory: &mut [Vec<f64>; 2],
-) {
-    lift.clear();
-    let kernel = &problem.kernel;
-    let Some(alone) = problem.alone().filter(|_| kernel.tangential != kernel.normal) else { return };
-    lift.resize(grid.len(), problem.bodies.lift * load);
-    let first = grid.port(0) / 2;
-    let [normal, displaced] = memory;
-    normal.clear();
-    normal.extend((0..grid.len()).map(|i| forces[grid.port(i) + 1]));
-    for (component, sign) in [(0, 1.0), (1, -1.0)] {
-        alone.displace(component, first, normal, displaced);
-        lift.iter_mut().zip(&displaced[first..]).for_each(|(lift, moved)| *lift += sign * moved);
-    }
-}
-
-/// Lever arms about the hub centre of the tangential and the normal force at candidate `i` [m].
-///
-/// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
-/// hub, contact and friction. Derivation: `docs/theory/lever-arms.md`.
-pub(in crate::contact) fn lever_arms(wheel: WheelShape, slopes: Slopes, i: usize) -> [f64; 2] {
-    let WheelShape { radius, frame, surface: u, lift } = wheel;
-    let (grid, port) = (slopes.grid, slopes.grid.port(i));
-    let lift = lift.get(i).copied().unwrap_or(0.0);
-    [radius - frame.normal(u, i) - lift, grid.x[i] + frame.tangential(u, port) + radius * slopes.arm(i)]
-}
 
 /// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the power `power`
 /// of friction [W/m], the slip velocities of the candidates `centred_slip` [m/s] and the largest pressure `limit` that
@@ -137,21 +83,6 @@ pub(in crate::contact) fn springing_work(
     let mean = |i: usize, limit: f64| 0.5 * (limit + traction.port_forces[grid.port(i) + 1]);
     let of_node = |(i, (depth, limit)): (usize, (&f64, &f64))| if *depth > 0.0 { depth * mean(i, *limit) } else { 0.0 };
     overlap.iter().zip(limit).enumerate().map(of_node).sum()
-}
-
-/// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
-pub(in crate::contact) fn resultant(wheel: WheelShape, slopes: Slopes, traction: &Traction) -> PerAxis<f64> {
-    let grid = slopes.grid;
-    let mut sum = PerAxis::default();
-    for i in 0..grid.len() {
-        let port = grid.port(i);
-        let (t, n) = (traction.port_forces[port], traction.port_forces[port + 1]);
-        let [arm_t, arm_n] = lever_arms(wheel, slopes, i);
-        sum.travel += t + n * slopes.rail(i);
-        sum.height += n;
-        sum.rotation -= arm_t * t + arm_n * n;
-    }
-    sum
 }
 
 /// Edges of a run of closed nodes below grid scale, from the ratio of its outermost nodal pressures.

@@ -23,8 +23,8 @@ pub struct OtherLines {
     pub forces: DVector<f64>,
     /// Pulls of hot layers at the candidates, on wheel and rail [N/m]; empty: there are none.
     pub pull: [Vec<f64>; 2],
-    /// Moments of the line's own tangential forces with the powers of the place [N/m], and what the forces of all lines of
-    /// the patch do to it.
+    /// Moments of the line's own tangential forces with the powers of the place [N/m], and what the forces of all lines
+    /// of the patch do to it.
     pub moments: ByPowers,
     pub field: Field,
     /// Contact forces and pulls of all lines together.

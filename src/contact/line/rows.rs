@@ -66,7 +66,7 @@ impl ContactLine<'_> {
     pub fn gap_by_shared(&self, i: usize, share: f64, window: Range<usize>, forces: &mut [f64]) {
         let (x, port) = (self.grid.x[i], self.grid.port(i) + 1);
         let compliance = column(self.problem.bodies.shared.relative, port)[window.clone()].iter();
-        let both = compliance.zip(&self.rim.shared[window.clone()]);
+        let both = compliance.zip(&self.iterate.rim.shared[window.clone()]);
         forces[window].iter_mut().zip(both).for_each(|(f, (c, t))| *f = share * (c - x * t));
     }
 
@@ -83,7 +83,7 @@ impl ContactLine<'_> {
         });
         let [[a, b], [c, d], [e, f]] = upstream;
         let own = (of_node(relative, self.grid.port(i)), share * gain);
-        let turned = (&self.rim.shared[window.clone()], share * by_angle);
+        let turned = (&self.iterate.rim.shared[window.clone()], share * by_angle);
         combine(&mut forces[window.clone()], [own, a, b, c, d, e, f, turned]);
     }
 
@@ -101,7 +101,7 @@ impl ContactLine<'_> {
         let first = window.start / 2;
         let nodes = forces[window].as_chunks_mut::<2>().0;
         let moved = alone.by_nodes(component, ports.map(|(port, factor)| (port / 2, factor)), first);
-        for ((node, moved), by_force) in nodes.iter_mut().zip(moved).zip(&self.rim.alone[first..]) {
+        for ((node, moved), by_force) in nodes.iter_mut().zip(moved).zip(&self.iterate.rim.alone[first..]) {
             node[component] += moved;
             node[0] += turned * by_force;
         }
@@ -110,7 +110,7 @@ impl ContactLine<'_> {
     /// Upwind stencil of the slip at a candidate, and the change of the slip with the rim angle [m/s/rad]: a turn of
     /// the rim tilts the surface and slows the rim.
     fn upwind_slip(&self, i: usize) -> ([(usize, f64); 3], f64) {
-        let (row, to_right) = (self.upwind.row(i), self.upstream_right());
+        let (row, to_right) = (self.iterate.upwind.row(i), self.upstream_right());
         let (stencil, [stretch, _]) = (self.stencil(i, row, to_right), self.stretches(i, row, to_right));
         let height = |at: usize| self.frame.radius - self.frame.sagitta[at / 2];
         let tilt: f64 = stencil.iter().map(|(at, weight)| weight * height(*at)).sum();
@@ -119,7 +119,7 @@ impl ContactLine<'_> {
 
     /// The gap at a candidate without that by contact forces and by the rim angle with them \[m].
     pub fn gap_terms(&self, i: usize) -> AffineRow {
-        let (bodies, rim, x) = (&self.problem.bodies, &self.rim, self.grid.x[i]);
+        let (bodies, rim, x) = (&self.problem.bodies, &self.iterate.rim, self.grid.x[i]);
         let port = self.grid.port(i) + 1;
         let mut accelerations = bodies.inertial_at(port);
         accelerations.add(-x, rim.accelerations);
@@ -145,11 +145,11 @@ impl ContactLine<'_> {
             accelerations.add(-velocity * weight, bodies.inertial_at(at));
             constant += weight * (v * rail[at] - velocity * self.frame.tangential(wheel, at));
         }
-        let [stretch_wheel, stretch_rail] = self.stretches(i, self.upwind.row(i), to_right);
+        let [stretch_wheel, stretch_rail] = self.stretches(i, self.iterate.upwind.row(i), to_right);
         let [a, b, c] = stencil.map(|(at, weight)| (at, -(v + velocity) * weight));
         self.add_alone(0, by_angle, [(port, 2.0 * gain), a, b, c], window.clone(), forces);
         self.add_slip_by(i, self, window, forces);
-        let rim = &self.rim;
+        let rim = &self.iterate.rim;
         accelerations.add(by_angle, rim.accelerations);
         constant += by_angle * (rim.constant - self.frame.rim_angle);
         let (travel, rotation) = (1.0 + stretch_rail, -problem.radius() * (1.0 + stretch_wheel));

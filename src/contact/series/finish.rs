@@ -108,8 +108,8 @@ fn remember(
     history.friction.advance(time, slope_power(line), |q| [force[q], line.slips[q]])
 }
 
-/// Writes the traction, the history and the memory, for which `growth` is the change of the displacement by the lines of
-/// the patch with the size of this one; returns the elastic energy of the line's own flexibility [J/m].
+/// Writes the traction, the history and the memory, for which `growth` is the change of the displacement by the lines
+/// of the patch with the size of this one; returns the elastic energy of the line's own flexibility [J/m].
 pub(super) fn finish(
     (line, growth): (&SeriesLine, ByPowers),
     state: &mut SeriesState,

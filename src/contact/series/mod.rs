@@ -4,10 +4,10 @@
 //! [`surface`] the smooth part of the bodies, [`field`] what the lines of a patch do to each other, [`hot_layers`] the
 //! effect of hot layers, [`places`] integrates over tractions, [`series_line`] has one line and [`contact`] what lines
 //! share, [`normal`] solves the normal problem, [`slip`], [`stretch`] and [`together`] given stretches of stick with
-//! [`equations`], [`stick`] finds where slip begins, [`points`] and [`pivoting`] which points stick where slip is not one
-//! stretch in one direction, [`laws`] the states of brakes and the friction coefficients, [`finish`] takes traction and
-//! power, and [`solver`] is the contact solver that says which contacts suit it. Theory: `docs/theory/patch-contact.md`,
-//! `docs/theory/lines.md`.
+//! [`equations`], [`stick`] finds where slip begins, [`points`] and [`pivoting`] which points stick where slip is not
+//! one stretch in one direction, [`laws`] the states of brakes and the friction coefficients, [`finish`] takes traction
+//! and power, and [`solver`] is the contact solver that says which contacts suit it. Theory:
+//! `docs/theory/patch-contact.md`, `docs/theory/lines.md`.
 
 pub mod chebyshev;
 pub(super) mod constants;

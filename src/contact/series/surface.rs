@@ -127,8 +127,8 @@ pub fn answer(compliance: &DMatrix<f64>, component: usize, force: usize, at: &At
     std::array::from_fn(|l| (0..POINTS).map(|k| at[k] * compliance[(2 * k + component, 2 * l + force)]).sum())
 }
 
-/// Tangential displacements of wheel and rail by unit moments of a shear on the wheel, and the rail's opposite one, with
-/// the powers of `x/reach`, as polynomials of it.
+/// Tangential displacements of wheel and rail by unit moments of a shear on the wheel, and the rail's opposite one,
+/// with the powers of `x/reach`, as polynomials of it.
 pub fn displaced_by_powers(bodies: &SurfaceResponse, points: &Lagrange) -> [ByMoments; 2] {
     [(0, 1.0), (1, -1.0)].map(|(body, sign)| {
         let compliance = bodies.shared.compliance[body];

@@ -25,8 +25,9 @@ pub struct Alternating {
 }
 
 impl Alternating {
-    /// Solves the linear problem of a single patch and gives the line its forces and motions; `false`: there are several
-    /// patches or none, or the alternation does not converge. `rows` is memory for the coefficients of all ports.
+    /// Solves the linear problem of a single patch and gives the line its forces and motions; `false`: there are
+    /// several patches or none, or the alternation does not converge. `rows` is memory for the coefficients of all
+    /// ports.
     pub fn solve(&mut self, lines: &mut [ContactLine], problem: LinearProblem, rows: &mut [Vec<f64>]) -> bool {
         let ([line], [own]) = (&*lines, problem.unknowns.lines.as_slice()) else { return false };
         let Some(patch) = own.single_patch(line) else { return false };
@@ -59,7 +60,9 @@ impl PressureShear {
         }
         for (of, offset) in self.rim_angle.iter_mut().zip([1, 0]) {
             of.clear();
-            of.extend(closed.iter().map(|&i| line.rim.by_force(line.problem.share, line.grid.port(i) + offset)));
+            of.extend(
+                closed.iter().map(|&i| line.iterate.rim.by_force(line.problem.share, line.grid.port(i) + offset)),
+            );
         }
         let height = sought.last() == Some(&Axis::Height);
         self.reset(stuck.len() + sought.len() - usize::from(height), height);

@@ -51,7 +51,8 @@ struct LineEquations {
     shared: Vec<f64>,
     /// Slips by unit moments of every line of the patch, in which the own ones are none; empty: there is no patch.
     by_lines: Vec<ByMoments>,
-    /// Powers of the places of the closed nodes, and those of the stuck ones beside the factors of their equations \[1].
+    /// Powers of the places of the closed nodes, and those of the stuck ones beside the factors of their equations
+    /// \[1].
     places: Vec<ByPowers>,
     stuck: Vec<(ByPowers, f64)>,
     /// Moments of the own forces [N/m].

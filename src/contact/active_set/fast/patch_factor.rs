@@ -1,6 +1,6 @@
-//! Factor of the inverse of the normal part of the compliance of a patch, kept from step to step: it gives the pressures
-//! that close the patch. Measured: factors that patches share take a rough rail's step without heat to 0.83 (rolling
-//! freely) and 0.85 (braking) of its time with one factorisation per patch.
+//! Factor of the inverse of the normal part of the compliance of a patch, kept from step to step: it gives the
+//! pressures that close the patch. Measured: factors that patches share take a rough rail's step without heat to 0.83
+//! (rolling freely) and 0.85 (braking) of its time with one factorisation per patch.
 //!
 //! Patches that begin at the same node share one factor: the longer one only has more rows. So it costs little where
 //! uneven surfaces move the edges. A kept factor has the same bits whatever came before ([`InverseFactor`]), so that a
