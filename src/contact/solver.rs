@@ -92,7 +92,8 @@ pub struct ContactState {
     pub stay: Stay,
 }
 
-/// Memory of a contact solver from step to step. States are stored, so that this is the one list of solvers.
+/// Memory of a contact solver from step to step. States are stored, so that this is the one list of solvers; each looks
+/// at its own alone.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum SolverState {
     /// No memory.
@@ -102,6 +103,18 @@ pub enum SolverState {
     Grid(Box<GridState>),
     /// Of a line as series.
     Series(Box<SeriesState>),
+}
+
+impl SolverState {
+    /// Memory of a line on paired nodes, if it is one.
+    pub fn grid(&self) -> Option<&GridState> {
+        if let Self::Grid(state) = self { Some(state) } else { None }
+    }
+
+    /// Memory of a line as series, if it is one.
+    pub fn series(&self) -> Option<&SeriesState> {
+        if let Self::Series(state) = self { Some(state) } else { None }
+    }
 }
 
 impl ContactState {

@@ -219,10 +219,7 @@ impl HalfPlanes {
 
 /// Memory of the solver on the grid.
 pub fn grid_state(state: &ContactState) -> &GridState {
-    match &state.solver {
-        SolverState::Grid(grid) => grid,
-        other => panic!("state of another solver: {other:?}"),
-    }
+    state.solver.grid().unwrap()
 }
 
 /// Memory of the solver on the grid, to be changed.

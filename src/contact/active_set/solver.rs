@@ -34,7 +34,7 @@ impl ActiveSetSolver {
 
 /// Makes `found` the start of a search.
 fn begin<'a>(start: &ContactState, found: &'a mut ContactState) -> Result<LineStart<'a>, ContactError> {
-    let SolverState::Grid(before) = &start.solver else { return Err(ContactError::ForeignState) };
+    let before = start.solver.grid().ok_or(ContactError::ForeignState)?;
     let ContactState { ports, traction, history, energy, solver, .. } = found;
     if !matches!(solver, SolverState::Grid(_)) {
         *solver = SolverState::Grid(Box::default());
@@ -89,7 +89,7 @@ impl ContactSolver for ActiveSetSolver {
     }
 
     fn fits(&self, state: &ContactState) -> bool {
-        let SolverState::Grid(line) = &state.solver else { return false };
+        let Some(line) = state.solver.grid() else { return false };
         let (n, ports, traction) = (self.grid.len(), self.grid.ports(), &state.traction);
         let vectors = traction.loads.iter().chain(&traction.surface).chain([&traction.port_forces]);
         [line.status.len(), line.slip.len(), line.gap.len(), line.tangential_gap.len(), line.yielded.len()] == [n; 5]
@@ -99,10 +99,8 @@ impl ContactSolver for ActiveSetSolver {
     }
 
     fn same_branch(&self, a: &ContactState, b: &ContactState) -> bool {
-        match (&a.solver, &b.solver) {
-            (SolverState::Grid(a), SolverState::Grid(b)) => a.status == b.status && a.yielded == b.yielded,
-            (SolverState::Grid(_) | SolverState::Series(_) | SolverState::Stateless, _) => false,
-        }
+        let states = a.solver.grid().zip(b.solver.grid());
+        states.is_some_and(|(a, b)| a.status == b.status && a.yielded == b.yielded)
     }
 
     fn surface_strain(&self, state: &ContactState) -> [Piecewise; 2] {

@@ -8,7 +8,7 @@ use crate::contact::error::ContactError;
 use crate::contact::line::ContactGrid;
 use crate::contact::problem::ContactProblem;
 use crate::contact::series::SeriesSolver;
-use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
+use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, Ports};
 use crate::piecewise::Piecewise;
 
 /// Contact on points that move with the patch where there are any and they describe it, and on fixed nodes elsewhere.
@@ -55,11 +55,8 @@ impl NodeChoice {
     /// Lines of the points on a grid with room for all of them.
     fn to_grid(&self, lines: &[&ContactState]) -> Option<Vec<ContactState>> {
         let points = self.points.as_ref()?;
-        let half_width = |line: &&ContactState| match &line.solver {
-            SolverState::Series(series) => series.tractions.pressure.half_width,
-            SolverState::Grid(_) | SolverState::Stateless => 0.0,
-        };
-        let (ports, fixed) = self.grid_for(lines.iter().map(half_width).fold(0.0, f64::max));
+        let half_width = |line: &&ContactState| Some(line.solver.series()?.tractions.pressure.half_width);
+        let (ports, fixed) = self.grid_for(lines.iter().filter_map(half_width).fold(0.0, f64::max));
         let moved = |line: &&ContactState| {
             let target = ContactState { ports, stay: Stay::LONG, ..fixed.touching(0.0) };
             transfer::to_grid(points.constants(), line, fixed.grid(), target)

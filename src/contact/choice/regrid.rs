@@ -72,7 +72,7 @@ pub(super) fn moved(line: &ContactState, grid: &ContactGrid, to: Ports) -> Optio
 /// True if the state of a line on a `wide` grid may as well live on a `narrow` one, under about the `nominal_load`
 /// [N/m].
 pub(super) fn fits_into([narrow, wide]: [&ContactGrid; 2], line: &ContactState, nominal_load: f64) -> bool {
-    let SolverState::Grid(state) = &line.solver else { return false };
+    let Some(state) = line.solver.grid() else { return false };
     let end = LEAVING * narrow.x.last().copied().unwrap_or(0.0);
     let beyond = |(x, status): (&f64, &NodeStatus)| status.is_active() && x.abs() > end;
     if wide.x.iter().zip(&state.status).any(beyond) {
@@ -122,11 +122,7 @@ mod tests {
         let before =
             ContactState { traction, history, solver: SolverState::Grid(Box::new(state)), ..ContactState::default() };
         let mut line = moved(&before, &wide, Ports::Wide).unwrap();
-        let state = |line: &ContactState| match &line.solver {
-            SolverState::Grid(state) => (**state).clone(),
-            other => panic!("{other:?}"),
-        };
-        let (on_wide, traction) = (state(&line), &line.traction);
+        let (on_wide, traction) = (line.solver.grid().unwrap().clone(), &line.traction);
         assert_eq!((on_wide.status.len(), on_wide.status[9], traction.port_forces.len()), (19, NodeStatus::Stick, 46));
         assert_eq!((traction.loads[0][0], traction.surface[0][1], on_wide.slip[18]), (0.0, 11.0, 0.0));
         let fits = |line: &ContactState| fits_into([&narrow, &wide], line, 1.0);

@@ -148,7 +148,7 @@ fn even(grid: &ContactGrid) -> Range<usize> {
 /// The state of a line on a grid as that on points; `None` where it has not a single patch, or one that reaches nodes
 /// that lie farther apart.
 pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &ContactState) -> Option<ContactState> {
-    let (SolverState::Grid(state), traction) = (&from.solver, &from.traction) else { return None };
+    let (state, traction) = (from.solver.grid()?, &from.traction);
     let ([edges], load) = (traction.edges.as_slice(), traction.resultant.height) else { return None };
     let reach = ROOM * constants.points.reach;
     if load <= 0.0 || traction.yielding.share > 0.0 || edges.low < -reach || edges.high > reach {

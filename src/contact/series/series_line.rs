@@ -11,7 +11,7 @@ use crate::axes::PerAxis;
 use crate::contact::flexibility::{ByPowers, Field};
 use crate::contact::line::LineHistory;
 use crate::contact::problem::{LineProblem, OneLine};
-use crate::contact::solver::{ContactState, SolverState};
+use crate::contact::solver::ContactState;
 use crate::contact::traction::Traction;
 use crate::linalg::POINTS;
 
@@ -26,10 +26,7 @@ pub struct SeriesStart<'a> {
 impl<'a> SeriesStart<'a> {
     /// Start of a line that the series have solved before.
     pub fn of(state: &'a ContactState) -> Option<Self> {
-        match &state.solver {
-            SolverState::Series(before) => Some(Self { before, history: &state.history, traction: &state.traction }),
-            SolverState::Grid(_) | SolverState::Stateless => None,
-        }
+        Some(Self { before: state.solver.series()?, history: &state.history, traction: &state.traction })
     }
 }
 

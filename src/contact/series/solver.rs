@@ -158,9 +158,7 @@ impl ContactSolver for SeriesSolver {
         for (found, (start, begun)) in found.iter_mut().zip(start.iter().zip(&begun)) {
             match &mut found.solver {
                 SolverState::Series(state) => (**state).clone_from(begun.before),
-                SolverState::Grid(_) | SolverState::Stateless => {
-                    found.solver = SolverState::Series(Box::new(begun.before.clone()))
-                }
+                other => *other = SolverState::Series(Box::new(begun.before.clone())),
             }
             found.history.copy_from(&start.history);
             found.ports = start.ports;
@@ -173,7 +171,7 @@ impl ContactSolver for SeriesSolver {
             }
         })?;
         for ((line, found), begun) in problem.lines.iter().zip(&*found).zip(&begun) {
-            let SolverState::Series(state) = &found.solver else { return Err(ContactError::ForeignState) };
+            let state = found.solver.series().ok_or(ContactError::ForeignState)?;
             Self::check_motion(&problem.rigid, line, &state.tractions, begun.before)?;
             Self::check_limits(line, &found.traction)?;
         }
@@ -181,7 +179,7 @@ impl ContactSolver for SeriesSolver {
     }
 
     fn fits(&self, state: &ContactState) -> bool {
-        let SolverState::Series(series) = &state.solver else { return false };
+        let Some(series) = state.solver.series() else { return false };
         let traction = &state.traction;
         let arches = [&series.tractions.pressure, &series.tractions.stick];
         let vectors = traction.loads.iter().chain(&traction.surface).chain([&traction.port_forces]);
@@ -195,9 +193,7 @@ impl ContactSolver for SeriesSolver {
     }
 
     fn same_branch(&self, a: &ContactState, b: &ContactState) -> bool {
-        match (&a.solver, &b.solver) {
-            (SolverState::Series(a), SolverState::Series(b)) => a.tractions.same_branch(&b.tractions),
-            (SolverState::Series(_) | SolverState::Grid(_) | SolverState::Stateless, _) => false,
-        }
+        let states = a.solver.series().zip(b.solver.series());
+        states.is_some_and(|(a, b)| a.tractions.same_branch(&b.tractions))
     }
 }
