@@ -103,7 +103,8 @@ impl ContactSolver for NodeChoice {
         scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
         let ports = start.first().map(|line| line.ports).ok_or(ContactError::ForeignState)?;
-        self.on(ports).ok_or(ContactError::ForeignState)?.solve(problem, start, found, scratch)?;
+        let solver = self.on(ports).filter(|_| start.iter().all(|line| line.ports == ports));
+        solver.ok_or(ContactError::ForeignState)?.solve(problem, start, found, scratch)?;
         for (line, (start, found)) in problem.lines.iter().zip(start.iter().zip(found)) {
             let (rigid, traction) = (&problem.rigid, &found.traction);
             found.stay = match &self.points {
