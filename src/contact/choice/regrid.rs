@@ -103,7 +103,6 @@ mod tests {
             slip: values(9, 1.0),
             gap: values(9, 2.0),
             tangential_gap: values(9, 3.0).into_iter().map(crate::multistep::History::constant).collect(),
-            ..GridState::default()
         };
         state.status[4] = NodeStatus::Stick;
         let friction = FrictionHistory {
