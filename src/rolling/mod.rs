@@ -28,6 +28,7 @@ pub mod flattening;
 pub mod line;
 pub mod lines;
 pub mod model;
+pub mod nodes;
 pub mod output_rows;
 pub mod outputs;
 pub mod patch_lines;
@@ -45,7 +46,6 @@ pub mod support;
 pub mod thermal;
 pub mod thermal_state;
 pub mod wear;
-pub mod nodes;
 
 pub use control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};
 pub use error::{ModelError, StepError};

@@ -1,4 +1,4 @@
-//! The rigid motion of the wheel: inertia, what drives its three axes, reactions.
+//! The rigid motion of the wheel: inertia, what drives its axes, reactions.
 
 use super::control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};
 use super::error::StepError;
@@ -42,7 +42,12 @@ impl RigidWheel {
         Self {
             radius: config.wheel.radius,
             width,
-            inertia: PerAxis { travel: mass + config.vehicle.mass / width, height: mass, rotation: moment },
+            inertia: PerAxis {
+                travel: mass + config.vehicle.mass / width,
+                height: mass,
+                rotation: moment,
+                lateral: mass,
+            },
             damping: config.vehicle.damping / width,
             wave_speed: Isotropic::from(&config.material).rayleigh_speed(),
         }
@@ -63,6 +68,7 @@ impl RigidWheel {
                 Rotation::Moment => AxisDrive::of(target.moment / self.width, target.torque / self.width),
                 Rotation::Velocity => AxisDrive::Prescribed { target: target.omega },
             },
+            lateral: AxisDrive::Prescribed { target: 0.0 },
         }
     }
 
@@ -113,6 +119,7 @@ impl RigidWheel {
             travel: motion_of(Axis::Travel, speeds[0], td.a0, motion.velocity.offset(td)),
             height: hub,
             rotation: motion_of(Axis::Rotation, speeds[1], td.a0, motion.omega.offset(td)),
+            lateral: RigidMotion::held(0.0, 0.0),
         }
     }
 

@@ -148,17 +148,22 @@ pub struct Motion {
 impl Motion {
     /// Values of the rigid motions (V [m/s], U \[m], Ω [rad/s]).
     pub fn values(&self) -> PerAxis<f64> {
-        PerAxis { travel: self.velocity.now, height: self.height.now, rotation: self.omega.now }
+        PerAxis { travel: self.velocity.now, height: self.height.now, rotation: self.omega.now, ..PerAxis::default() }
     }
 
     /// Velocities conjugate to the hub forces (V, U̇ [m/s], Ω [rad/s]).
     pub fn velocities(&self) -> PerAxis<f64> {
-        PerAxis { travel: self.velocity.now, height: self.height.rate, rotation: self.omega.now }
+        PerAxis { travel: self.velocity.now, height: self.height.rate, rotation: self.omega.now, ..PerAxis::default() }
     }
 
     /// Rigid accelerations (V̇, Ü [m/s²], Ω̇ [rad/s²]).
     pub fn accelerations(&self) -> PerAxis<f64> {
-        PerAxis { travel: self.velocity.rate, height: self.hub_velocity.rate, rotation: self.omega.rate }
+        PerAxis {
+            travel: self.velocity.rate,
+            height: self.hub_velocity.rate,
+            rotation: self.omega.rate,
+            ..PerAxis::default()
+        }
     }
 }
 

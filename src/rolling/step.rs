@@ -14,7 +14,7 @@ use super::thermal::{self, HeatStep, HeatSupply, ThermalLine, ThermalScratch};
 use super::wear;
 use crate::axes::PerAxis;
 use crate::config::Tuning;
-use crate::contact::{AxisDrive, Friction, FrictionLaw, Heating};
+use crate::contact::{AxisDrive, Friction, FrictionLaw, Heating, Spin};
 use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative, formula, position, settled};
 
@@ -213,6 +213,7 @@ fn solve_and_commit(
         operators: &operators,
         free,
         rigid: model.wheel.motions(&state.motion, drives, [td, of_height], *speeds, free[0].momentum),
+        spin: Spin::default(),
         time: *td,
         duration: *dt,
         place,

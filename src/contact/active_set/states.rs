@@ -116,13 +116,7 @@ fn closing_state(line: &ContactLine, i: usize, before: &[NodeStatus]) -> NodeSta
 
 /// Takes the state of a node from its normal force or, if it was open `before`, from its `gap` \[m]; returns whether it
 /// changed.
-pub(super) fn guess_state(
-    line: &mut ContactLine,
-    i: usize,
-    gap: f64,
-    rules: &Rules,
-    before: &[NodeStatus],
-) -> bool {
+pub(super) fn guess_state(line: &mut ContactLine, i: usize, gap: f64, rules: &Rules, before: &[NodeStatus]) -> bool {
     let closed = before[i].is_active();
     line.state.gap[i] = if closed { 0.0 } else { gap };
     let indicator = if closed { line.normal(i) } else { -rules.penalty * gap };

@@ -110,10 +110,9 @@ impl ContactSolver for NodeChoice {
         for (line, (start, found)) in problem.lines.iter().zip(start.iter().zip(found)) {
             let (rigid, traction) = (&problem.rigid, &found.traction);
             found.stay = match &self.points {
-                Some(points) if ports != Ports::Smooth && !line.time.is_stationary() => start.stay.after_step(
-                    || SeriesSolver::stands(rigid, line, traction),
-                    || points.suits(rigid, line, traction),
-                ),
+                Some(points) if ports != Ports::Smooth && !line.time.is_stationary() => start
+                    .stay
+                    .after_step(|| SeriesSolver::stands(rigid, line, traction), || points.suits(rigid, line, traction)),
                 Some(_) | None => start.stay,
             };
         }

@@ -121,6 +121,7 @@ pub(super) fn finish(
     traction.friction.coefficient = line.friction;
     let power = traction.friction.dissipate(friction, work, line.problem.line.duration);
     traction.friction.tread_slip = line.tread_slip();
+    traction.friction.slip_speed = traction.friction.tread_slip.abs();
     traction.rigid = line.rigid;
     traction.resultant = line.resultant();
     write_ports(line, traction);

@@ -37,7 +37,8 @@ pub fn solve<R>(
     for _ in 0..MOST_STATES {
         let rigid = brake::driven(&problem.rigid, states);
         let memory: [_; MOST_LAYOUTS] = std::array::from_fn(|_| OnceCell::new());
-        let line = |(line, start)| SeriesLine::new(constants, OneLine { line, rigid: &rigid }, start);
+        let line =
+            |(line, start)| SeriesLine::new(constants, OneLine { line, rigid: &rigid, spin: problem.spin }, start);
         let lines = problem.lines.iter().zip(starts).map(line).collect();
         let mut contact = SeriesContact::new(lines, &rigid, Relaid { problem, memory: &memory });
         check_layers(&contact)?;

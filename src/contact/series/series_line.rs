@@ -242,7 +242,7 @@ impl<'a> SeriesLine<'a> {
         let tangential = self.friction_force();
         let middle = total(&self.pressed.force, &self.pressed.x);
         let rotation = self.lifted() - self.problem.line.radius() * tangential - middle;
-        PerAxis { travel: tangential, height: self.load(), rotation }
+        PerAxis { travel: tangential, height: self.load(), rotation, lateral: 0.0 }
     }
 
     /// Part of the moment that the deformation of the wheel changes \[N]. Lever arms are those of the deformed wheel

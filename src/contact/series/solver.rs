@@ -11,7 +11,7 @@ use super::{finish, laws};
 use crate::axes::PerAxis;
 use crate::contact::error::ContactError;
 use crate::contact::line::LineHistory;
-use crate::contact::problem::{ContactProblem, LineProblem, OneLine, RigidMotion};
+use crate::contact::problem::{ContactProblem, LineProblem, OneLine, RigidMotion, Spin};
 use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::{Lagrange, POINTS};
@@ -95,7 +95,7 @@ impl SeriesSolver {
         let [edges] = traction.edges.as_slice() else { return false };
         let half_width = edges.half_length();
         let patch = Arch { centre: edges.middle(), half_width, ..Arch::default() };
-        let view = OneLine { line: problem, rigid };
+        let view = OneLine { line: problem, rigid, spin: Spin::default() };
         let bends = |layers: &SeriesLayers| laws::bends(layers, &view, half_width, 0.5 * laws::UNRESOLVED);
         Self::check(problem).is_ok()
             && Self::check_limits(problem, traction).is_ok()

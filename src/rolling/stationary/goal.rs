@@ -179,6 +179,7 @@ impl Goal {
             travel: motion(Axis::Travel, trial.speeds[0]),
             height: free(Axis::Height, self.drives.height, height),
             rotation: motion(Axis::Rotation, trial.speeds[1]),
+            lateral: RigidMotion::held(0.0, 0.0),
         }
     }
 }

@@ -14,7 +14,7 @@ use super::super::thermal_state::ThermalState;
 use super::goal::{Goal, Trial};
 use crate::axes::{Axis, PerAxis};
 use crate::config::Tuning;
-use crate::contact::{AxisDrive, ContactError, ContactScratch, Friction, FrictionLaw, Heating, LineLayout};
+use crate::contact::{AxisDrive, ContactError, ContactScratch, Friction, FrictionLaw, Heating, LineLayout, Spin};
 use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative};
 
@@ -143,6 +143,7 @@ impl Pass<'_> {
             operators: &operators,
             free,
             rigid: goal.motions(model, trial, self.sought, state.rigid().height, free[0].momentum),
+            spin: Spin::default(),
             time: td,
             duration: 0.0,
             place: [0.0; 2],
