@@ -8,7 +8,7 @@ use wheelrail::analytic::{
 };
 use wheelrail::contact::series::SeriesSolver;
 use wheelrail::contact::{
-    ContactError, ContactSolver, ContactState, Friction, LineKernel, LineLayout, RigidMotion, SolverState,
+    ContactError, ContactSolver, ContactState, Friction, LineKernel, LineLayout, RigidMotion, SolverState, Spin,
 };
 use wheelrail::multistep::TimeDerivative;
 

@@ -107,6 +107,25 @@ impl PatchFlexibility {
         (Self { lateral: Some(LateralTables { across, askew }), ..self }, reaches)
     }
 
+    /// Sums over the forces of all lines with the given moments along and across [N/m], by line, on the line `at`: along
+    /// and across.
+    pub fn sums<'a>(
+        &self,
+        at: usize,
+        moments: impl IntoIterator<Item = [&'a ByPowers; 2]>,
+        of: impl Fn(&Between) -> &ByMoments,
+    ) -> [ByPowers; 2] {
+        let mut sums = [ByPowers::default(); 2];
+        for (by, [along, across]) in moments.into_iter().enumerate() {
+            add(of(self.between(at, by)), along, &mut sums[0]);
+            let Some([direct, askew]) = self.across(at, by).map(|tables| tables.map(&of)) else { continue };
+            add(askew, across, &mut sums[0]);
+            add(direct, across, &mut sums[1]);
+            add(askew, along, &mut sums[1]);
+        }
+        sums
+    }
+
     /// True if forces and displacements have a lateral part.
     pub fn is_sideways(&self) -> bool {
         self.lateral.is_some()
@@ -140,15 +159,15 @@ impl PatchFlexibility {
 }
 
 /// Adds the polynomial that belongs to moments.
-pub fn add(by_moments: &ByMoments, moments: &ByPowers, sum: &mut ByPowers) {
+pub fn add<const D: usize>(by_moments: &[[f64; D]; D], moments: &[f64; D], sum: &mut [f64; D]) {
     for (by_moment, moment) in by_moments.iter().zip(moments) {
         sum.iter_mut().zip(by_moment).for_each(|(sum, by)| *sum += by * moment);
     }
 }
 
 /// Polynomial that belongs to moments.
-pub fn polynomial(by_moments: &ByMoments, moments: &ByPowers) -> ByPowers {
-    let mut sum = ByPowers::default();
+pub fn polynomial<const D: usize>(by_moments: &[[f64; D]; D], moments: &[f64; D]) -> [f64; D] {
+    let mut sum = [0.0; D];
     add(by_moments, moments, &mut sum);
     sum
 }
@@ -211,6 +230,13 @@ impl InPatch<'_> {
     pub fn field<'a>(&self, moments: impl Iterator<Item = &'a ByPowers> + Clone) -> Field {
         let sum = |of: fn(&Between) -> &ByMoments| self.flexibility.sum(self.line, moments.clone(), of);
         Field { displacement: sum(|by| &by.displacement), strain: sum(|by| &by.strain) }
+    }
+
+    /// Fields along and across of the forces of all lines with the given moments along and across on this one.
+    pub fn fields<'a>(&self, moments: impl Iterator<Item = [&'a ByPowers; 2]> + Clone) -> [Field; 2] {
+        let sums = |of: fn(&Between) -> &ByMoments| self.flexibility.sums(self.line, moments.clone(), of);
+        let (displacement, strain) = (sums(|by| &by.displacement), sums(|by| &by.strain));
+        [0, 1].map(|k| Field { displacement: displacement[k], strain: strain[k] })
     }
 
     /// Powers of a place on the line, see [`powers`].
