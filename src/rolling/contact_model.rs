@@ -53,7 +53,7 @@ pub struct ContactStep<'a> {
     pub free: &'a [FreeResponse; 2],
     /// The rigid motions.
     pub rigid: PerAxis<RigidMotion>,
-    /// Spin of the wheel.
+    /// Turning about the normal of the contact.
     pub spin: Spin,
     /// Time formula; all zero: stationary.
     pub time: TimeDerivative,

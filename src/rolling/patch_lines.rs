@@ -77,6 +77,9 @@ impl PatchLines {
             (_, Some(PatchRows { rows, shapes })) => PatchLayout::rows(rows, &shapes, material, lines, radius, width),
             (_, None) => PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load),
         };
+        if config.contact.lateral {
+            return Ok(Self::Sized(patch.sideways()));
+        }
         if smooth {
             return Ok(Self::Sized(patch));
         }
