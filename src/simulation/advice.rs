@@ -63,8 +63,8 @@ pub fn failed_start(error: &StepError, config: &Config, inputs: &Inputs) -> Stri
             })
         }
         StepError::BeyondAdhesion { .. } => {
-            "start with gentler drive.moment, drive.force and drive.lateral_force and bring them to their values in the first steps, or set \
-             initial.creepage, with which the run starts sliding and accelerates by what adhesion does not carry"
+            "start with gentler drive.moment, drive.force and drive.lateral_force and bring them to their values in the first \
+             steps, or set initial.creepage, with which the run starts sliding and accelerates by what adhesion does not carry"
                 .to_owned()
         }
         StepError::Unpressed { .. } => {
