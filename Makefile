@@ -24,6 +24,7 @@
 # make own-vehicle a wagon of one's own on eight wheels, one axle of which seizes: table and plot in results/
 # make surfaces  waves, holes, rough rails, flats and the contact filter: table and plot in results/
 # make ellipse   one brake application on patches of constant width and on an elliptical one: table and plot in results/
+# make angle-of-attack  a wheel turned while it brakes, beside one that runs straight: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes, and those of every preset by speed and by brake:
 #                pressure, temperature, friction; an error where a limit is broken
 # make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
@@ -41,7 +42,7 @@
 # make clean     remove everything that was built
 #                make TARGET ARGS="..." hands options to the program of any example, train, sweep, endurance and
 #                random-parameters, make ellipse ARGS=--help lists them; OUT=folder puts results elsewhere than in results/
-#                ARGS=--brief shortens masters, suspension, creep-curve, own-vehicle, surfaces and ellipse; other short
+#                ARGS=--brief shortens masters, suspension, creep-curve, own-vehicle, surfaces, ellipse and angle-of-attack; other short
 #                ones: make demo ARGS=--speed-kmh=20, make flat ARGS="--once --slide 0.1 --roll 0.2"
 
 PYTHON ?= python3
@@ -82,10 +83,10 @@ SITE := $(VENV)/.site
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml \
 	$(shell find src slave/src resources docs/theory -type f) \
 	docs/fmu.html docs/page.html docs/style.css docs/profiles.md docs/patches.md docs/coupling.md docs/validation.md docs/speed.md \
-	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
+	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs site describe clean
+.PHONY: demo help test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -179,6 +180,9 @@ surfaces: $(FMU) $(INSTALLED)
 
 ellipse: $(FMU) $(INSTALLED)
 	$(PY) examples/ex13_ellipse.py --fmu $(FMU) --out $(OUT) $(ARGS)
+
+angle-of-attack: $(FMU) $(INSTALLED)
+	$(PY) examples/ex14_angle_of_attack.py --fmu $(FMU) --out $(OUT) $(ARGS)
 
 # The second study is made whatever the first one finds; a limit that either of them finds broken ends both with an error.
 LOCKED := $(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results

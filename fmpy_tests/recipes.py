@@ -33,6 +33,7 @@ CHECKOUT = (
     short("creep-curve", "--brief"),
     short("ellipse", "--brief"),
     Recipe("make ellipse ARGS=--help", says="--brief"),
+    short("angle-of-attack", "--brief"),
     short("masters", "--brief"),
     short("suspension", "--brief"),
     short("own-vehicle", "--brief"),

@@ -3,10 +3,13 @@ derivative."""
 
 import pytest
 
-DEFAULT = {"control.rotation": "moment", "control.translation": "force", "control.vertical": "force"}
-SWITCHED = {"control.rotation": "velocity", "control.translation": "velocity", "control.vertical": "displacement"}
+DEFAULT = {"control.rotation": "moment", "control.translation": "force", "control.vertical": "force", "control.lateral": "force"}
+SWITCHED = {
+    "control.rotation": "velocity", "control.translation": "velocity", "control.vertical": "displacement", "control.lateral": "velocity",
+}  # fmt: skip
 V = 20.0  # m/s
-START = {"initial.velocity": V}
+# A contact in which all of them act.
+START = {"preset": "railway_ellipse", "contact.lateral": True, "contact.lines": 3, "initial.velocity": V}
 # A value of every real input, and another one.
 VALUES = {
     "drive.omega": (V / 0.46, 0.9995 * V / 0.46),
@@ -16,6 +19,10 @@ VALUES = {
     "drive.load": (1e5, 1.1e5),
     "drive.load_change": (0.0, 5e3),
     "drive.displacement": (-1.78e-4, -1.80e-4),
+    "drive.lateral_velocity": (0.0, 0.01),
+    "drive.lateral_force": (0.0, 1e3),
+    "drive.spin": (0.0, 0.05),
+    "drive.contact_angle": (0.0, 0.02),
     "drive.tread_heat": (0.0, 1e3),
     "rail.friction": (0.3, 0.05),
     "rail.temperature": (293.0, 303.0),
@@ -25,7 +32,7 @@ VALUES = {
     "brake.torque": (0.0, 500.0),
 }
 # Inputs that act whatever is prescribed.
-ALWAYS = {"rail.friction", "rail.temperature", "rail.slope", "rail.elevation", "drive.tread_heat"}
+ALWAYS = {"rail.friction", "rail.temperature", "rail.slope", "rail.elevation", "drive.tread_heat", "drive.spin", "drive.contact_angle"}
 # Parameters that need no new basis.
 PARAMETERS = {"initial.velocity": 15.0, "initial.creepage": 2e-4, "vehicle.mass": 5e3, "thermal.wheel_excess": 5.0}
 
@@ -93,8 +100,8 @@ def test_between_steps_inputs_change_only_what_is_declared_and_act_in_the_next_s
             acted.add(name)
     wheel.forget(here)
     prescribed = {
-        "forces": {"drive.moment", "drive.force", "drive.load", "drive.load_change", "brake.torque"},
-        "motion": {"drive.omega", "drive.velocity", "drive.displacement"},
+        "forces": {"drive.moment", "drive.force", "drive.load", "drive.load_change", "brake.torque", "drive.lateral_force"},
+        "motion": {"drive.omega", "drive.velocity", "drive.displacement", "drive.lateral_velocity"},
     }["forces" if control is DEFAULT else "motion"]
     assert acted >= prescribed | set(DEFAULT) | ALWAYS
     partners = set(VALUES) - prescribed - ALWAYS

@@ -68,6 +68,7 @@ axes! {
     travel: Travel, "Travel of the wheel along the rail: velocity V [m/s], force in x [N/m].";
     height: Height, "Height of the hub: U \\[m], its velocity U̇ [m/s], force in y [N/m].";
     rotation: Rotation, "Rotation about the axle: angular velocity Ω, forward positive [rad/s], forward moment \\[N].";
+    lateral: Lateral, "Travel of the wheel across the rail, to the right: velocity V_z [m/s], force in z [N/m].";
 }
 
 impl Axis {
@@ -87,7 +88,7 @@ impl Axis {
     #[inline]
     pub fn arm(self, radius: f64) -> f64 {
         match self {
-            Self::Travel | Self::Height => 1.0,
+            Self::Travel | Self::Height | Self::Lateral => 1.0,
             Self::Rotation => radius,
         }
     }

@@ -48,11 +48,12 @@ use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
 use tools::{Shelf, Tools};
 
-pub use crate::rolling::control::{DriveRow, InputError, STANDSTILL, peripheral_velocity};
+pub use crate::rolling::control::{DriveRow, InputError};
+pub use crate::rolling::creepages::{STANDSTILL, peripheral_velocity};
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
 pub use crate::rolling::substeps::LONGEST_STEP;
 pub use crate::rolling::{
-    Difference, Drive, Inputs, MOST_LINES, Origin, OutputRow, Outputs, PROFILE_POINTS, Read, Rotation, State,
+    Difference, Drive, Inputs, Lateral, MOST_LINES, Origin, OutputRow, Outputs, PROFILE_POINTS, Read, Rotation, State,
     StepError, Translation, Vertical,
 };
 
@@ -80,8 +81,9 @@ impl Inputs {
             temperature: config.thermal.reference,
             ..Drive::default()
         };
-        let (rotation, translation, vertical) = (Rotation::Moment, Translation::Force, Vertical::Force);
-        Self { rotation, translation, vertical, drive, rate: Drive::default() }
+        let (rotation, translation, vertical, lateral) =
+            (Rotation::Moment, Translation::Force, Vertical::Force, Lateral::Velocity);
+        Self { rotation, translation, vertical, lateral, drive, rate: Drive::default() }
     }
 }
 

@@ -8,7 +8,7 @@ use wheelrail::analytic::{
 };
 use wheelrail::contact::series::SeriesSolver;
 use wheelrail::contact::{
-    ContactError, ContactSolver, ContactState, Friction, LineKernel, LineLayout, RigidMotion, SolverState,
+    ContactError, ContactSolver, ContactState, Friction, LineKernel, LineLayout, RigidMotion, SolverState, Spin,
 };
 use wheelrail::multistep::TimeDerivative;
 
@@ -50,13 +50,14 @@ impl HalfPlanes {
         start: &ContactState,
     ) -> Result<ContactState, ContactError> {
         let omega = speed * (1.0 - 0.5 * creepage) / RADIUS;
-        let motion = [speed * (1.0 + 0.5 * creepage), omega].map(|value| RigidMotion::held(value, 0.0));
+        let motion = [speed * (1.0 + 0.5 * creepage), omega, 0.0].map(|value| RigidMotion::held(value, 0.0));
         let step = Step {
             radius: RADIUS,
             lines: (&[self.line], None),
             flexibility: None,
             load: [load, LOAD],
             motion,
+            spin: Spin::default(),
             laws: (time, Friction::constant(friction)),
         };
         self.bodies.solve(&self.solver, &step, std::slice::from_ref(start)).map(|mut lines| lines.remove(0))

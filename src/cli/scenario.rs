@@ -19,7 +19,8 @@ const SEEN: f64 = 1e-6;
 /// Latest time \[s]: a later one is a date, or counts something else than seconds.
 const LATEST: f64 = 1e8;
 /// Inputs that move to their value at the end of a step: their mean over it has no meaning.
-const MOTIONS: [&str; 5] = ["drive.omega", "drive.velocity", "drive.displacement", HEIGHT, RATE];
+const MOTIONS: [&str; 6] =
+    ["drive.omega", "drive.velocity", "drive.displacement", "drive.lateral_velocity", HEIGHT, RATE];
 /// The height of the rail, which is smooth between rows.
 const HEIGHT: &str = "rail.elevation";
 /// Its rate at the end of a step.

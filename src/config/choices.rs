@@ -98,6 +98,14 @@ choice! {
 }
 
 impl ContactMethod {
+    /// Contact is looked for on a grid only.
+    pub fn is_grid(self) -> bool {
+        match self {
+            ContactMethod::Grid => true,
+            ContactMethod::Auto | ContactMethod::Patch => false,
+        }
+    }
+
     /// Steps without a single smooth patch fail, instead of being solved on the grid.
     pub fn requires_patch(self) -> bool {
         match self {

@@ -34,6 +34,14 @@ pub enum ConfigError {
         /// Allowed range in words, and the other parameters that it depends on.
         range: String,
     },
+    /// Parameters that do not go with a contact of two directions.
+    #[error("contact.lateral = true does not go with {other}: set {remedy}, or contact.lateral = false")]
+    Lateral {
+        /// The other parameter with its value.
+        other: &'static str,
+        /// Parameter that has to be set, and the value.
+        remedy: &'static str,
+    },
     /// Rows that are no patch.
     #[error(transparent)]
     Rows(#[from] RowsError),
@@ -44,6 +52,7 @@ impl ConfigError {
     pub fn name(&self) -> &'static str {
         match self {
             Self::Range { name, .. } => name,
+            Self::Lateral { .. } => "contact.lateral",
             Self::Rows(_) => "contact.rows",
         }
     }
@@ -51,12 +60,14 @@ impl ConfigError {
 
 /// A check of one parameter against others: its name, value and unit, the range, and the others with their values.
 pub struct Dependent {
-    name: &'static str,
-    value: f64,
-    unit: &'static str,
-    low: f64,
-    high: f64,
-    others: String,
+    /// Name of the parameter, or what follows from parameters.
+    pub(super) name: &'static str,
+    pub(super) value: f64,
+    pub(super) unit: &'static str,
+    pub(super) low: f64,
+    pub(super) high: f64,
+    /// The others with their values, in words.
+    pub(super) others: String,
 }
 
 impl Dependent {

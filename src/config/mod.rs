@@ -11,6 +11,7 @@ pub mod patch_rows;
 pub mod presets;
 pub mod retired;
 pub mod row;
+mod sideways;
 pub mod table;
 pub mod units;
 pub mod value;
@@ -82,6 +83,7 @@ impl Config {
             }
         }
         self.check_rows()?;
-        dependent::ranges(self).into_iter().try_for_each(Dependent::check)
+        sideways::check(self)?;
+        dependent::ranges(self).into_iter().chain(sideways::ranges(self)).try_for_each(Dependent::check)
     }
 }

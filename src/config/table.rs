@@ -36,6 +36,15 @@ parameters! {
                 "Shape of the tread besides the circle, fixed to the wheel and closed after a turn: shapes with parameters, or \
                  the name of a file, see docs/profiles.md; empty: round";
             1023 basic hub_inertia: f64 = 15.0, in "kg.m2", from 0.0 to 1e6, "Moment of inertia of that mass about the axle";
+            1204 basic lateral_mass: f64 = 0.0, in "kg", from 0.0 to 1e6,
+                "Mass that moves sideways with the hub besides the wheel and wheel.hub_mass: what the wheelset adds; it counts with \
+                 contact.lateral only, as all that follows here";
+            1205 expert lateral_stiffness: f64 = 0.0, in "N/m" as "MN/m", from 0.0 to 1e15,
+                "Lateral stiffness of the wheel between hub and contact; 0: rigid";
+            1206 expert lateral_damping: f64 = 0.0, in "N.s/m" as "kN.s/m", from 0.0 to 1e12,
+                "Lateral damping beside that spring, 0 if it is rigid";
+            1207 expert lateral_tread_mass: f64 = 0.0, in "kg", from 0.0 to 1e6,
+                "Part of the wheel's mass that moves sideways with the tread, beyond that spring; 0 if it is rigid";
         }
         /// Vehicle that the wheel pulls along; the suspension carries it vertically.
         vehicle: Vehicle fixed {
@@ -63,6 +72,12 @@ parameters! {
                 "Longitudinal stiffness of the rail's restraint; 0: rigid";
             1046 expert restraint_damping: f64 = 1e6, in "N.s/m" as "kN.s/m", from 0.0 to 1e12,
                 "Longitudinal damping of the restraint, 0 if it is rigid";
+            1208 expert lateral_stiffness: f64 = 0.0, in "N/m" as "MN/m", from 0.0 to 1e15,
+                "Lateral stiffness of rail and track under the contact, with contact.lateral; 0: rigid";
+            1209 expert lateral_damping: f64 = 0.0, in "N.s/m" as "kN.s/m", from 0.0 to 1e12,
+                "Lateral damping beside that spring, 0 if it is rigid";
+            1210 expert lateral_mass: f64 = 0.0, in "kg", from 0.0 to 1e6,
+                "Mass of rail and track that moves sideways with the rail head, 0 if that spring is rigid";
             1048 expert ends: RailEnds = RailEnds::Free, "What the ends of the modelled rail do to waves";
         }
         /// Brake of the wheel; its strength is the input `brake.torque`.
@@ -76,6 +91,9 @@ parameters! {
             1196 basic shape: ContactShape = ContactShape::Line, "Shape of the patch in which wheel and rail touch";
             1197 basic lines: usize = 7, from 1 to 13,
                 "Lines of the patch across its width; those of a symmetric pair are computed once";
+            1203 basic lateral: bool = false,
+                "Whether the contact has lateral creepage, spin, lateral force and spin moment, with contact.shape = ellipse or rows; \
+                 without it drive.lateral_velocity, drive.lateral_force, drive.spin and drive.contact_angle are refused";
             1198 expert wheel_lateral_radius: f64 = 0.0, in "m" as "mm", from -100.0 to 100.0,
                 "Radius of curvature of the tread across the direction of rolling, positive where it is convex, negative \
                  where it is hollow; 0: straight, as a cone is";

@@ -29,6 +29,15 @@ pub enum ContactError {
         /// Property of the contact that it cannot describe.
         reason: &'static str,
     },
+    /// A contact that takes no lateral creepage and spin.
+    #[error(
+        "{reason}, and such a contact takes no lateral creepage and spin: set contact.lateral to false, or change what \
+         stands in the way"
+    )]
+    Sideways {
+        /// What stands in the way, with the parameter that puts it there.
+        reason: &'static str,
+    },
     /// The solver takes one contact line.
     #[error("this contact solver takes one contact line, not {lines}")]
     SingleLine {

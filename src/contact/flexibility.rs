@@ -61,6 +61,17 @@ pub struct PatchFlexibility {
     lines: usize,
     /// By displaced line, then by line of the force.
     pairs: Vec<Between>,
+    /// Tables across; `None`: forces and displacements have no lateral part.
+    lateral: Option<LateralTables>,
+}
+
+/// Flexibility of all lines of a patch across, as [`PatchFlexibility`] orders it.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct LateralTables {
+    /// Displacements across by forces across.
+    across: Vec<Between>,
+    /// Displacements across by forces along, and along by forces across.
+    askew: Vec<Between>,
 }
 
 /// A line as part of a patch that displaces it.
@@ -79,32 +90,52 @@ impl PatchFlexibility {
     /// those beside the middle stand for a symmetric pair. Besides, for every line the logarithm of the distance over 1
     /// m at which a force of its own no longer displaces it by more than the mean over all lines.
     pub fn new(tiles: &[Tile], mirrored: bool, (shear_modulus, nu): (f64, f64)) -> (Self, Vec<f64>) {
-        let (projection, factor, count) = (LegendreProjection::new(), 1.0 / (PI * shear_modulus), tiles.len());
+        let factor = 1.0 / (PI * shear_modulus);
         let beside = |tile: &Tile| mirrored && tile.edges[0] + tile.edges[1] > LEAST_OFFSET * tile.width();
-        let mut pairs = vec![Between::default(); count * count];
-        for (pair, (at, of)) in pairs.iter_mut().zip(tiles.iter().flat_map(|at| tiles.iter().map(move |of| (at, of)))) {
-            for image in [Some(*of), beside(of).then(|| of.mirrored())].into_iter().flatten() {
-                projection.add([at, of], factor, |x| at.displaced_by(image, x, nu), pair);
-            }
+        let mut pairs = table(tiles, factor, &beside, |at, of, x| at.displaced_by(of, x, nu));
+        let reaches = take_reaches(&mut pairs, tiles.len(), 2.0 * (1.0 - nu) * factor);
+        (Self { lines: tiles.len(), pairs, lateral: None }, reaches)
+    }
+
+    /// With forces and displacements across of the lines of [`Self::new`] on `tiles` that are not mirrored; and the
+    /// logarithms for those.
+    pub fn sideways(self, tiles: &[Tile], (shear_modulus, nu): (f64, f64)) -> (Self, Vec<f64>) {
+        let factor = 1.0 / (PI * shear_modulus);
+        let mut across = table(tiles, factor, &|_| false, |at, of, x| at.displaced_across_by(of, x, nu));
+        let askew = table(tiles, factor, &|_| false, |at, of, x| at.displaced_askew_by(of, x, nu));
+        let reaches = take_reaches(&mut across, tiles.len(), 2.0 * factor);
+        (Self { lateral: Some(LateralTables { across, askew }), ..self }, reaches)
+    }
+
+    /// Sums over the forces of all lines with the given moments along and across [N/m], by line, on the line `at`: along
+    /// and across.
+    pub fn sums<'a>(
+        &self,
+        at: usize,
+        moments: impl IntoIterator<Item = [&'a ByPowers; 2]>,
+        of: impl Fn(&Between) -> &ByMoments,
+    ) -> [ByPowers; 2] {
+        let mut sums = [ByPowers::default(); 2];
+        for (by, [along, across]) in moments.into_iter().enumerate() {
+            add(of(self.between(at, by)), along, &mut sums[0]);
+            let Some([direct, askew]) = self.across(at, by).map(|tables| tables.map(&of)) else { continue };
+            add(askew, across, &mut sums[0]);
+            add(direct, across, &mut sums[1]);
+            add(askew, along, &mut sums[1]);
         }
-        let width = |tile: &Tile| if beside(tile) { 2.0 * tile.width() } else { tile.width() };
-        for (i, j) in (0..count).flat_map(|i| (i..count).map(move |j| (i, j))) {
-            let [mut first, mut second] = [pairs[i * count + j], pairs[j * count + i]];
-            let of = [&tiles[i], &tiles[j]];
-            reconcile([&mut first, &mut second], of.map(width), of.map(|tile| tile.half_length));
-            (pairs[i * count + j], pairs[j * count + i]) = (first, second);
-        }
-        // A constant displacement may belong to the logarithm as well.
-        let logarithm = 2.0 * (1.0 - nu) * factor;
-        let reaches = (0..count).map(|line| {
-            let reach =
-                pairs[line * count..][..count].iter().map(|pair| mean(&pair.displacement)).sum::<f64>() / logarithm;
-            pairs[line * (count + 1)].displacement[0][0] -= logarithm * reach;
-            pairs[line * (count + 1)].growth[0][0] += 0.5 * logarithm * reach;
-            reach
-        });
-        let reaches = reaches.collect();
-        (Self { lines: count, pairs }, reaches)
+        sums
+    }
+
+    /// True if forces and displacements have a lateral part.
+    pub fn is_sideways(&self) -> bool {
+        self.lateral.is_some()
+    }
+
+    /// Effects of the forces of a line `by` on a line `at`: across by forces across, and across by forces along, which is
+    /// that along by forces across; `None`: there is no lateral part.
+    pub fn across(&self, at: usize, by: usize) -> Option<[&Between; 2]> {
+        let pair = at * self.lines + by;
+        self.lateral.as_ref().map(|lateral| [&lateral.across[pair], &lateral.askew[pair]])
     }
 
     /// Effect of the forces of a line `by` on a line `at`.
@@ -128,15 +159,15 @@ impl PatchFlexibility {
 }
 
 /// Adds the polynomial that belongs to moments.
-pub fn add(by_moments: &ByMoments, moments: &ByPowers, sum: &mut ByPowers) {
+pub fn add<const D: usize>(by_moments: &[[f64; D]; D], moments: &[f64; D], sum: &mut [f64; D]) {
     for (by_moment, moment) in by_moments.iter().zip(moments) {
         sum.iter_mut().zip(by_moment).for_each(|(sum, by)| *sum += by * moment);
     }
 }
 
 /// Polynomial that belongs to moments.
-pub fn polynomial(by_moments: &ByMoments, moments: &ByPowers) -> ByPowers {
-    let mut sum = ByPowers::default();
+pub fn polynomial<const D: usize>(by_moments: &[[f64; D]; D], moments: &[f64; D]) -> [f64; D] {
+    let mut sum = [0.0; D];
     add(by_moments, moments, &mut sum);
     sum
 }
@@ -201,6 +232,13 @@ impl InPatch<'_> {
         Field { displacement: sum(|by| &by.displacement), strain: sum(|by| &by.strain) }
     }
 
+    /// Fields along and across of the forces of all lines with the given moments along and across on this one.
+    pub fn fields<'a>(&self, moments: impl Iterator<Item = [&'a ByPowers; 2]> + Clone) -> [Field; 2] {
+        let sums = |of: fn(&Between) -> &ByMoments| self.flexibility.sums(self.line, moments.clone(), of);
+        let (displacement, strain) = (sums(|by| &by.displacement), sums(|by| &by.strain));
+        [0, 1].map(|k| Field { displacement: displacement[k], strain: strain[k] })
+    }
+
     /// Powers of a place on the line, see [`powers`].
     pub fn powers(&self, x: f64) -> ByPowers {
         powers(x / self.half_length)
@@ -256,6 +294,43 @@ fn dual(t: f64) -> ByPowers {
         sum.iter_mut().zip(legendre).for_each(|(sum, c)| *sum += factor * c);
     }
     sum
+}
+
+/// Effects of unit forces on `tiles` on each other by a kernel, times `factor`; those `beside` the middle stand for a
+/// symmetric pair.
+fn table(
+    tiles: &[Tile],
+    factor: f64,
+    beside: &impl Fn(&Tile) -> bool,
+    kernel: impl Fn(&Tile, Tile, f64) -> TileInfluence,
+) -> Vec<Between> {
+    let (projection, count) = (LegendreProjection::new(), tiles.len());
+    let mut pairs = vec![Between::default(); count * count];
+    for (pair, (at, of)) in pairs.iter_mut().zip(tiles.iter().flat_map(|at| tiles.iter().map(move |of| (at, of)))) {
+        for image in [Some(*of), beside(of).then(|| of.mirrored())].into_iter().flatten() {
+            projection.add([at, of], factor, |x| kernel(at, image, x), pair);
+        }
+    }
+    let width = |tile: &Tile| if beside(tile) { 2.0 * tile.width() } else { tile.width() };
+    for (i, j) in (0..count).flat_map(|i| (i..count).map(move |j| (i, j))) {
+        let [mut first, mut second] = [pairs[i * count + j], pairs[j * count + i]];
+        let of = [&tiles[i], &tiles[j]];
+        reconcile([&mut first, &mut second], of.map(width), of.map(|tile| tile.half_length));
+        (pairs[i * count + j], pairs[j * count + i]) = (first, second);
+    }
+    pairs
+}
+
+/// Leaves the mean displacement of every line to its own logarithm, whose factor is `logarithm` \[m²/N]: a constant
+/// displacement may belong to that as well. Returns the logarithms of the distances at which they end over 1 m.
+fn take_reaches(pairs: &mut [Between], count: usize, logarithm: f64) -> Vec<f64> {
+    let reaches = (0..count).map(|line| {
+        let reach = pairs[line * count..][..count].iter().map(|pair| mean(&pair.displacement)).sum::<f64>() / logarithm;
+        pairs[line * (count + 1)].displacement[0][0] -= logarithm * reach;
+        pairs[line * (count + 1)].growth[0][0] += 0.5 * logarithm * reach;
+        reach
+    });
+    reaches.collect()
 }
 
 /// Makes tables of two lines that displace each other, which stand for the given widths, obey Betti's theorem to

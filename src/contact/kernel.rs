@@ -20,6 +20,8 @@ pub struct LineKernel {
     pub tangential: Logarithm,
     /// Along normal forces.
     pub normal: Logarithm,
+    /// Along lateral forces; zero where there are none.
+    pub lateral: Logarithm,
     /// A pressure p strains the surface by `−g p`; `g` [1/Pa].
     pub coupling: f64,
 }
@@ -41,12 +43,13 @@ impl LineKernel {
     /// That of a half-plane whose displacement ends at the distance `length` \[m].
     pub fn of_half_plane(half_plane: HalfPlane, length: f64) -> Self {
         let along = Logarithm { factor: half_plane.kernel, reach: libm::log(length) };
-        Self { tangential: along, normal: along, coupling: half_plane.coupling }
+        Self { tangential: along, normal: along, lateral: Logarithm::default(), coupling: half_plane.coupling }
     }
 
     /// True if all numbers are finite.
     pub fn is_sound(&self) -> bool {
-        let Self { tangential, normal, coupling } = self;
-        [tangential.factor, tangential.reach, normal.factor, normal.reach, *coupling].iter().all(|v| v.is_finite())
+        let Self { tangential, normal, lateral, coupling } = self;
+        let along = [tangential, normal, lateral].map(|along| [along.factor, along.reach]);
+        along.as_flattened().iter().chain([coupling]).all(|v| v.is_finite())
     }
 }

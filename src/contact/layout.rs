@@ -22,6 +22,8 @@ const ROOM: f64 = 1.5;
 pub struct LineLayout {
     /// Lateral position, about the centre of load, over half the width of the patch \[1].
     pub ordinate: f64,
+    /// Lateral position about the centre of load \[m].
+    pub position: f64,
     /// Width of the line over that of the bodies \[1].
     pub share: f64,
     /// Half-length of which it is laid out \[m].
@@ -76,6 +78,8 @@ pub struct PatchLayout {
     width: f64,
     /// Tangential flexibility of every line under it, as far as it is a logarithm.
     tangential: Vec<Logarithm>,
+    /// Lateral flexibility of the same kind; empty where lines have no lateral forces.
+    across: Vec<Logarithm>,
     /// Smooth rest of it, under the forces of all lines.
     flexibility: Arc<PatchFlexibility>,
     /// Lengths of the lines on which they do, over those under the load of the description \[1].
@@ -154,6 +158,7 @@ impl PatchLayout {
             radius,
             width,
             tangential: reaches.into_iter().map(|reach| Logarithm { factor, reach }).collect(),
+            across: Vec::new(),
             flexibility: Arc::new(flexibility),
             room: 1.0,
             elastic,
@@ -169,6 +174,36 @@ impl PatchLayout {
         let (flexibility, reaches) = PatchFlexibility::new(&tiles(rows, symmetric, ROOM), symmetric, self.elastic);
         let tangential = self.tangential.iter().zip(reaches).map(|(along, reach)| Logarithm { reach, ..*along });
         Self { tangential: tangential.collect(), flexibility: Arc::new(flexibility), room: ROOM, ..self }
+    }
+
+    /// With lateral forces: every line stands for itself.
+    pub fn sideways(self) -> Self {
+        let (middle, symmetric) = (self.rows.first().is_some_and(|row| row.position == 0.0), self.symmetric);
+        let halved = |row: &PatchRow| match symmetric && row.position > 0.0 {
+            true => PatchRow { width: 0.5 * row.width, ..*row },
+            false => *row,
+        };
+        let upper: Vec<_> = self.rows.iter().map(halved).collect();
+        let mirrored = |row: &PatchRow| PatchRow { position: -row.position, ..*row };
+        let lower = upper.iter().skip(usize::from(middle)).rev().filter(|_| symmetric).map(mirrored);
+        let rows: Vec<_> = lower.chain(upper.iter().copied()).collect();
+        let images = self.couplings.iter().skip(usize::from(middle)).rev().filter(|_| symmetric);
+        let tiles = tiles(&rows, false, self.room);
+        let (along, reaches) = PatchFlexibility::new(&tiles, false, self.elastic);
+        let (flexibility, across) = along.sideways(&tiles, self.elastic);
+        let kernel =
+            |factor: f64, reaches: Vec<f64>| reaches.into_iter().map(|reach| Logarithm { factor, reach }).collect();
+        let (shear_modulus, nu) = self.elastic;
+        Self {
+            gaps: rows.iter().map(|row| row.gap).collect(),
+            couplings: images.chain(&self.couplings).copied().collect(),
+            symmetric: false,
+            tangential: kernel((1.0 - nu) / (PI * shear_modulus), reaches),
+            across: kernel(1.0 / (PI * shear_modulus), across),
+            flexibility: Arc::new(flexibility),
+            rows,
+            ..self
+        }
     }
 
     /// True if lines beside the middle stand for a symmetric pair.
@@ -248,12 +283,17 @@ impl PatchLayout {
         let (pressing, logarithm) = (factor * line_load, 0.5 / (factor * stiffness));
         LineLayout {
             ordinate: position / (scale * self.lateral),
+            position,
             share: width / self.width,
             half_length: self.room * half_length,
             gap: approach - pressing * (2.0 * logarithm + 1.0),
             kernel: LineKernel {
                 tangential: Logarithm { reach: along.reach + libm::log(scale), ..along },
                 normal: Logarithm { factor, reach: libm::log(0.5 * half_length) + logarithm },
+                lateral: self.across.get(i).map_or_else(Logarithm::default, |across| Logarithm {
+                    reach: across.reach + libm::log(scale),
+                    ..*across
+                }),
                 coupling: self.couplings[i],
             },
             energy: line_load * (0.4 * approach - pressing * (logarithm + 0.25)),

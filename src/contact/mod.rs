@@ -31,7 +31,7 @@ pub use kernel::{LineKernel, Logarithm};
 pub use layout::{LineLayout, PatchLayout, PatchMaterial};
 pub use limits::SteelLimits;
 pub use problem::{
-    AxisDrive, ContactProblem, Influence, LayoutsOfLoad, LineProblem, OneLine, RetardedSurface, RigidMotion,
+    AxisDrive, ContactProblem, Influence, LayoutsOfLoad, LineProblem, OneLine, RetardedSurface, RigidMotion, Spin,
     SurfaceResponse,
 };
 pub use solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};

@@ -164,6 +164,8 @@ impl RigidMotion {
 pub struct LineProblem<'a> {
     /// Its width over that of the bodies \[1].
     pub share: f64,
+    /// Lateral position about the centre of load \[m].
+    pub position: f64,
     /// Flexibility that it has for itself.
     pub kernel: LineKernel,
     /// Patch whose other lines displace it, too; `None`: it is alone but for the bodies.
@@ -199,20 +201,32 @@ impl LineProblem<'_> {
         }
     }
 
+    /// True if its tractions and slips have a lateral part.
+    pub fn is_sideways(&self) -> bool {
+        self.patch.is_some_and(|patch| patch.flexibility.is_sideways())
+    }
+
     /// Slip of the round wheel per unit of a rigid motion \[1, m].
     pub fn sliding(&self, axis: Axis) -> f64 {
         match axis {
             Axis::Travel => 1.0,
-            Axis::Height => 0.0,
+            Axis::Height | Axis::Lateral => 0.0,
             Axis::Rotation => -self.radius(),
         }
     }
 
     /// This line in another layout, of which the gap is the change from the present one.
     pub fn laid_out(&self, layout: &LineLayout) -> Self {
-        let LineLayout { share, kernel, half_length, gap, .. } = *layout;
+        let LineLayout { share, position, kernel, half_length, gap, .. } = *layout;
         let placement = Placement { elevation: self.placement.elevation - gap, ..self.placement };
-        Self { share, kernel, patch: self.patch.map(|patch| InPatch { half_length, ..patch }), placement, ..*self }
+        Self {
+            share,
+            position,
+            kernel,
+            patch: self.patch.map(|patch| InPatch { half_length, ..patch }),
+            placement,
+            ..*self
+        }
     }
 
     /// Rolling radius of the wheel \[m], thermal growth included.
@@ -228,9 +242,42 @@ pub struct OneLine<'a> {
     pub line: &'a LineProblem<'a>,
     /// Rigid motions of the wheel.
     pub rigid: &'a PerAxis<RigidMotion>,
+    /// Spin of the wheel.
+    pub spin: Spin,
+}
+
+/// Spin: the wheel turns about the vertical with the velocity `σ = per_travel · V + per_rotation · Ω` [rad/s], which adds
+/// `−σ z` to its slip along and `σ x` to that across.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spin {
+    /// Turn per distance [1/m].
+    pub per_travel: f64,
+    /// Turn per angle of rotation, the sine of an angle between the plane of the patch and the axle \[1].
+    pub per_rotation: f64,
+}
+
+impl Spin {
+    /// Spin velocity [rad/s], given V [m/s] and Ω [rad/s].
+    pub fn velocity(self, motions: PerAxis<f64>) -> f64 {
+        self.per_travel * motions.travel + self.per_rotation * motions.rotation
+    }
+
+    /// Spin velocity per unit of a rigid motion [1/m, 1].
+    pub fn by(self, axis: Axis) -> f64 {
+        match axis {
+            Axis::Travel => self.per_travel,
+            Axis::Rotation => self.per_rotation,
+            Axis::Height | Axis::Lateral => 0.0,
+        }
+    }
 }
 
 impl ContactProblem<'_> {
+    /// True if tractions and slips have a lateral part.
+    pub fn is_sideways(&self) -> bool {
+        self.lines.iter().any(LineProblem::is_sideways)
+    }
+
     /// The problem for a solver that takes a single line.
     ///
     /// # Errors
@@ -238,7 +285,7 @@ impl ContactProblem<'_> {
     /// [`ContactError::SingleLine`] if there are several.
     pub fn single(&self) -> Result<OneLine<'_>, ContactError> {
         match self.lines.as_slice() {
-            [line] => Ok(OneLine { line, rigid: &self.rigid }),
+            [line] => Ok(OneLine { line, rigid: &self.rigid, spin: self.spin }),
             lines => Err(ContactError::SingleLine { lines: lines.len() }),
         }
     }
@@ -250,6 +297,8 @@ pub struct ContactProblem<'a> {
     pub lines: Vec<LineProblem<'a>>,
     /// Rigid motions of the wheel.
     pub rigid: PerAxis<RigidMotion>,
+    /// Spin of the wheel; only lines with lateral forces feel it.
+    pub spin: Spin,
     /// Line load that scales tolerances [N/m].
     pub nominal_load: f64,
     /// Largest change of the weights at the contact edges that counts as converged \[1].

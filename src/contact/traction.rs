@@ -21,9 +21,9 @@ pub struct Traction {
     pub loads: [DVector<f64>; 2],
     /// Displacements of the ports of wheel and rail \[m].
     pub surface: [DVector<f64>; 2],
-    /// Rigid motions (V [m/s], U \[m], Ω [rad/s]) with which they were found.
+    /// Rigid motions (V [m/s], U \[m], Ω [rad/s], V_z [m/s]) with which they were found.
     pub rigid: PerAxis<f64>,
-    /// Generalised forces on the wheel: force x, force y [N/m], forward moment about the hub centre \[N].
+    /// Generalised forces on the wheel: force x, force y [N/m], forward moment about the hub centre \[N], force z [N/m].
     pub resultant: PerAxis<f64>,
     /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the
     /// pressures beside them.
@@ -42,6 +42,13 @@ pub struct Traction {
     /// Velocity of the wheel surface relative to that of the rail [m/s]; minus shear times slip integrates to the
     /// friction power, but for the thousandths that pressure on the inclined surface and expanding material add to it.
     pub slip: Piecewise,
+    /// Friction traction on the wheel across, to the right positive \[Pa]; empty where there is none across.
+    pub lateral_shear: Piecewise,
+    /// Velocity of the wheel surface relative to that of the rail across [m/s]; empty where friction does not act across.
+    pub lateral_slip: Piecewise,
+    /// Moment of both friction tractions on the wheel about the vertical through the centre of load, `Σ (z F_x − x F_z)`
+    /// \[N]: per metre of the line's width.
+    pub spin_moment: f64,
     /// Friction coefficient and the heat of friction.
     pub friction: SolvedFriction,
     /// Yielding of the steel.
@@ -59,6 +66,8 @@ pub struct SolvedFriction {
     /// Slip velocity that gave it: the mean over the patches, weighted with the pressure, of the velocity of the wheel
     /// surface relative to that of the rail, at the end of the step; positive in braking, zero without contact [m/s].
     pub tread_slip: f64,
+    /// Length of the mean slip velocity, along and across, that friction depends on [m/s].
+    pub slip_speed: f64,
     /// Power that friction turns from mechanical energy into heat at the end of the step, net of the power that hot
     /// material gives back by expanding as it passes the contact [W/m].
     pub power: f64,
@@ -104,7 +113,7 @@ impl SolvedFriction {
 
     /// Takes away the slip and its dissipation.
     fn rest(&mut self) {
-        (self.power, self.work, self.tread_slip, self.excess) = (0.0, 0.0, 0.0, 0.0);
+        (self.power, self.work, self.tread_slip, self.slip_speed, self.excess) = (0.0, 0.0, 0.0, 0.0, 0.0);
         self.dissipation.value.fill(0.0);
     }
 }
@@ -169,6 +178,7 @@ impl Traction {
     pub fn rest(&mut self) {
         self.friction.rest();
         self.slip.value.fill(0.0);
+        self.lateral_slip.value.fill(0.0);
     }
 }
 

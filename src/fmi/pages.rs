@@ -17,7 +17,7 @@ macro_rules! files {
 }
 
 /// The pages, in the order in which they are read.
-const PAGES: [(&str, &str); 27] = files![include_str:
+const PAGES: [(&str, &str); 28] = files![include_str:
     "profiles.md",
     "patches.md",
     "coupling.md",
@@ -26,6 +26,7 @@ const PAGES: [(&str, &str); 27] = files![include_str:
     "theory/condensation.md",
     "theory/time-formula.md",
     "theory/track-support.md",
+    "theory/sideways.md",
     "theory/rail-ends.md",
     "theory/damping.md",
     "theory/contact.md",
@@ -48,8 +49,9 @@ const PAGES: [(&str, &str); 27] = files![include_str:
 ];
 
 /// Pictures on the pages, by their paths below `docs`, which they keep.
-pub const PICTURES: [(&str, &[u8]); 5] =
-    files![include_bytes: "flat.png", "masters.png", "own_vehicle.png", "surfaces.png", "suspension.png"];
+pub const PICTURES: [(&str, &[u8]); 6] = files![include_bytes:
+    "flat.png", "masters.png", "own_vehicle.png", "sideways.svg", "surfaces.png", "suspension.png"
+];
 
 /// All pages.
 pub fn pages() -> impl Iterator<Item = Page> {

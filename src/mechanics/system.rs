@@ -28,7 +28,7 @@ pub struct BodySystem {
     pub circles: Option<[CsrMatrix; 2]>,
     /// `S − B`: minus the weak form of `ρ ∂∂u` (per unit stream speed squared); `B` is the Robin term of free ends.
     pub ale_inertia: CsrMatrix,
-    /// `M r_k` for unit rigid accelerations in x, y and Ω (`r_Ω = (y, −x)`), hub or base nodes included;
+    /// `M r_k` for unit rigid accelerations in x, y, Ω (`r_Ω = (y, −x)`) and z (none in the plane), hub or base nodes included;
     /// the rail has no `r_Ω`.
     pub rigid: DMatrix<f64>,
     /// Centrifugal load `M X` per `Ω²`; zero for the rail.
@@ -56,6 +56,7 @@ impl BodySystem {
             travel: load(|_| [1.0, 0.0])?,
             height: load(|_| [0.0, 1.0])?,
             rotation: turning(|[x, y]| [y, -x])?,
+            lateral: DVector::zeros(dofs.len()),
         };
         let circles = match stream {
             Stream::Rotation => Some([

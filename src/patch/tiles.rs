@@ -2,11 +2,13 @@
 //! line that stands for it.
 //!
 //! A force `f` per width on the tile γ < z < δ, constant across it, displaces half-spaces along x; the displacement of
-//! another tile α < z < β is the mean over it. With a unit point force, `(1 − ν)/r + ν x²/r³` times `1/(πG)` for both
-//! bodies of equal material (Johnson, *Contact Mechanics* (1985), section 3.6), and its second antiderivative in z,
+//! another tile α < z < β is the mean over it. With unit point forces, times `1/(πG)` for both bodies of equal material
+//! (Johnson, *Contact Mechanics* (1985), section 3.6), and their second antiderivatives in the lateral distance s,
 //!
 //! ```text
-//! H(x, s) = (1 − ν) s asinh(s/|x|) − (1 − 2ν) r,      r² = x² + s²
+//! x by x   (1 − ν)/r + ν x²/r³     H(x, s) = (1 − ν) s asinh(s/|x|) − (1 − 2ν) r,      r² = x² + s²
+//! z by z        1/r − ν x²/r³      H(x, s) =         s asinh(s/|x|) − (1 + ν) r
+//! x by z, z by x    ν x s/r³       H(x, s) = −ν x asinh(s/|x|)
 //! G(x) = [H(β − γ) − H(β − δ) − H(α − γ) + H(α − δ)]/(β − α)/(πG)
 //! ```
 //!
@@ -22,7 +24,8 @@ pub struct Tile {
 }
 
 /// Displacement of a tile by a unit force per width on another one at a distance x, times `πG` \[1], and what follows
-/// from it. Of a tile's own displacement the logarithm `2 (1 − ν) ln(1/|x|)` is left out, lengths in metres.
+/// from it. Of a tile's own displacement the logarithm is left out, lengths in metres: `2 (1 − ν) ln(1/|x|)` along,
+/// `2 ln(1/|x|)` across.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TileInfluence {
     /// The displacement \[1].
@@ -49,8 +52,44 @@ impl Tile {
         self.edges[1] - self.edges[0]
     }
 
-    /// Its displacement by a force on the tile `of` at the distance x \[m] on half-spaces with Poisson's ratio ν \[1].
+    /// Its displacement along by a force along on the tile `of` at the distance x \[m] on half-spaces with Poisson's
+    /// ratio ν \[1].
     pub fn displaced_by(self, of: Self, x: f64, nu: f64) -> TileInfluence {
+        self.displaced(of, x, [1.0 - nu, 1.0 - 2.0 * nu, nu])
+    }
+
+    /// Its displacement across by a force across, as [`Self::displaced_by`].
+    pub fn displaced_across_by(self, of: Self, x: f64, nu: f64) -> TileInfluence {
+        self.displaced(of, x, [1.0, 1.0 + nu, -nu])
+    }
+
+    /// Its displacement across by a force along, and along by a force across, as [`Self::displaced_by`]; none by its own.
+    pub fn displaced_askew_by(self, of: Self, x: f64, nu: f64) -> TileInfluence {
+        let mut sum = TileInfluence::default();
+        if self == of {
+            return sum;
+        }
+        let logarithm = libm::log(x.abs().max(LEAST));
+        for (here, at) in self.edges.into_iter().zip([-1.0, 1.0]) {
+            for (there, sign) in of.edges.into_iter().zip([at, -at]) {
+                let s: f64 = here - there;
+                if s == 0.0 {
+                    continue;
+                }
+                let r = libm::hypot(x, s);
+                let steep = (libm::log(s.abs() + r) - logarithm) * s.signum();
+                sum.displacement -= sign * nu * x * steep;
+                sum.strain -= sign * nu * (steep - s / r);
+                sum.growth -= sign * here * nu * x / r;
+            }
+        }
+        let width = self.width();
+        let [displacement, strain] = [sum.displacement, sum.strain].map(|sum| sum / width);
+        TileInfluence { displacement, strain, growth: sum.growth / width - displacement }
+    }
+
+    /// Displacement whose second antiderivative is `c s asinh(s/|x|) − d r`, and `e = c − d`.
+    fn displaced(self, of: Self, x: f64, [c, d, e]: [f64; 3]) -> TileInfluence {
         let (own, mut sum) = (self == of, TileInfluence::default());
         let logarithm = libm::log(x.abs().max(LEAST));
         for (here, at) in self.edges.into_iter().zip([-1.0, 1.0]) {
@@ -60,12 +99,12 @@ impl Tile {
                 let along = if r > 0.0 { x / r } else { 0.0 };
                 // `asinh(s/|x|)` without the logarithm of x, which cancels but in a tile's own displacement.
                 let steep = if size > 0.0 { libm::log(size + r) } else { 0.0 };
-                sum.displacement += sign * ((1.0 - nu) * size * steep - (1.0 - 2.0 * nu) * r);
+                sum.displacement += sign * (c * size * steep - d * r);
                 let flat = if size + r > 0.0 { size / (size + r) } else { 0.0 };
-                sum.strain += sign * along * ((1.0 - nu) * flat - (1.0 - 2.0 * nu));
+                sum.strain += sign * along * (c * flat - d);
                 if size > 0.0 {
                     let full = steep - if own { 0.0 } else { logarithm };
-                    sum.growth += sign * here * ((1.0 - nu) * full * s.signum() + nu * s / r);
+                    sum.growth += sign * here * (c * full * s.signum() + e * s / r);
                 }
             }
         }

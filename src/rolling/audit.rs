@@ -18,13 +18,19 @@ pub fn energy(model: &RollingModel, state: &State) -> f64 {
     model.wheel.energy(velocities)
         + model.bodies.energy(state, velocities)
         + model.bodies.energy_of_contact(state)
+        + model.wheel.sideways.energy(state.motion.lateral.now, &state.side)
         + state.sum(|line| line.contact.traction.yielding.springing_work)
+}
+
+/// Power that damping and open ends take out of bodies, track and what carries the contact sideways [W/m].
+fn dissipation(model: &RollingModel, state: &State) -> f64 {
+    model.bodies.dissipation(state) + model.wheel.sideways.dissipation(&state.side)
 }
 
 /// Balance at a stationary start.
 pub fn start(model: &RollingModel, state: &State) -> Audit {
     let energy = energy(model, state);
-    Audit { initial_energy: energy, energy, damping_power: model.bodies.dissipation(state), ..Audit::default() }
+    Audit { initial_energy: energy, energy, damping_power: dissipation(model, state), ..Audit::default() }
 }
 
 /// Balance after a step from `state` to `next`, whose motion, bodies, contact and hub forces are complete.
@@ -37,16 +43,19 @@ pub fn advance(model: &RollingModel, td: &TimeDerivative, state: &State, next: &
     if !next.hub.prescribed.height {
         mean.height = (next.motion.height.now - state.motion.height.now) / next.clock.last_step;
     }
-    let work = impulse.dot(mean);
+    let turning = td.impulse(next.spin_moment(), state.spin_moment(), before.turning);
+    let spinning = 0.5 * (state.motion.spin + next.motion.spin) * turning;
+    let work = impulse.dot(mean) + spinning;
     let forces = [state, next].map(|state| state.resultant().height);
     let damper = [state, next].map(|state| model.wheel.damper_force(state));
     let damper = td.impulse(damper[1], damper[0], before.damper);
-    let damping_power = model.bodies.dissipation(next);
+    let damping_power = dissipation(model, next);
     let damped = td.impulse(damping_power, before.damping_power, before.damped);
     Audit {
         initial_energy: before.initial_energy,
         energy: energy(model, next),
         work: before.work + work,
+        spinning: before.spinning + spinning,
         gravity: before.gravity
             + 0.5 * (next.clock.time - state.clock.time) * (state.hub.gravity + next.hub.gravity) * mean.travel,
         lift: before.lift + 0.5 * (next.elevation - state.elevation) * (forces[0] + forces[1]),
@@ -58,6 +67,7 @@ pub fn advance(model: &RollingModel, td: &TimeDerivative, state: &State, next: &
         throughput: before.throughput + work.abs(),
         damping_power,
         impulse,
+        turning,
         pressed: td.impulse(forces[1], forces[0], before.pressed),
         damped,
         damper,

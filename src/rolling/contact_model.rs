@@ -13,7 +13,7 @@ use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, InPatch,
-    LayoutsOfLoad, LineLayout, LineProblem, RetardedSurface, RigidMotion, SteelLimits, SurfaceResponse, Traction,
+    LayoutsOfLoad, LineLayout, LineProblem, RetardedSurface, RigidMotion, Spin, SteelLimits, SurfaceResponse, Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
@@ -51,8 +51,10 @@ pub struct ContactStep<'a> {
     pub operators: &'a Operators,
     /// Their answers without contact forces: wheel, rail.
     pub free: &'a [FreeResponse; 2],
-    /// The three rigid motions.
+    /// The rigid motions.
     pub rigid: PerAxis<RigidMotion>,
+    /// Turning about the normal of the contact.
+    pub spin: Spin,
     /// Time formula; all zero: stationary.
     pub time: TimeDerivative,
     /// Length of the step \[s]; zero: stationary.
@@ -197,6 +199,7 @@ impl ContactModel {
         let problem = ContactProblem {
             lines: lines.map(|(k, ((line, friction), layout))| self.line(step, line, *friction, (k, layout))).collect(),
             rigid: step.rigid,
+            spin: step.spin,
             nominal_load: self.nominal_line_load(),
             edge_tolerance: step.edge_tolerance,
             layouts: Some(&following),
@@ -222,6 +225,7 @@ impl ContactModel {
         let [distance, angle] = start.place(step.place);
         LineProblem {
             share: layout.share,
+            position: layout.position,
             kernel: layout.kernel,
             patch: self.patch.flexibility().map(|flexibility| InPatch {
                 flexibility,

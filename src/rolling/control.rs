@@ -37,6 +37,16 @@ choice! {
     }
 }
 
+choice! {
+    /// Prescribed partner of (lateral force, lateral velocity).
+    pub enum Lateral named "LateralControl",
+        "Which of lateral force and lateral velocity is prescribed; the other is the reaction"
+    {
+        Velocity = "velocity", "drive.lateral_velocity is prescribed";
+        Force = "force", "drive.lateral_force is prescribed";
+    }
+}
+
 impl Rotation {
     /// The angular velocity is prescribed, the moment its reaction.
     pub fn prescribes_motion(self) -> bool {
@@ -63,6 +73,16 @@ impl Vertical {
         match self {
             Vertical::Force => false,
             Vertical::Displacement => true,
+        }
+    }
+}
+
+impl Lateral {
+    /// The lateral velocity is prescribed, the lateral force its reaction.
+    pub fn prescribes_motion(self) -> bool {
+        match self {
+            Lateral::Velocity => true,
+            Lateral::Force => false,
         }
     }
 }
@@ -202,6 +222,8 @@ inputs! {
         101 translation: Translation,
             "Prescribed partner of (horizontal force, travel velocity); switching between steps is bumpless";
         102 vertical: Vertical, "Prescribed partner of (load, hub height); switching between steps is bumpless";
+        103 lateral: Lateral,
+            "Prescribed partner of (lateral force, lateral velocity), with contact.lateral; switching between steps is bumpless";
     }
     values {
         200 omega of "drive", in "rad/s" as "rpm", from -2e4 to 2e4, nominal 60.0,
@@ -221,6 +243,17 @@ inputs! {
         207 load_change of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4,
             "Vertical load on the hub in addition to drive.load, pressing down positive: what a suspension adds to the static \
              load. Masters whose connections are zero before the first step keep the load at the start";
+        208 lateral_velocity of "drive", in "m/s" as "mm/s", from -50.0 to 50.0, nominal 0.1,
+            "Lateral velocity of the hub in the plane of contact, to the right positive, with contact.lateral: velocity times angle of \
+             attack, and what the wheelset moves sideways";
+        209 lateral_force of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4,
+            "Lateral force on the hub in the plane of contact, to the right positive, with contact.lateral";
+        210 spin of "drive", in "1/m", from -100.0 to 100.0, nominal 0.1,
+            "Spin of the wheel on the rail over its velocity, with contact.lateral: seen from above it turns clockwise on the rail \
+             by this angle per metre travelled, besides what drive.contact_angle makes";
+        211 contact_angle of "drive", in "rad" as "deg", from -1.5 to 1.5, nominal 0.05,
+            "Angle between the plane of contact and the axle, with contact.lateral: positive where the plane rises to the right, as that of \
+             a right-hand wheel does. The turning wheel spins in this plane with minus wheel.omega times the sine";
         250 friction of "rail", in "1", from 0.0 to 10.0, nominal 0.3,
             "Friction coefficient available now; unset: friction.coefficient";
         251 temperature of "rail", in "K" as "degC", from 0.0 to 1e4, nominal 300.0,
@@ -313,77 +346,9 @@ impl Inputs {
     }
 }
 
-/// Creepage `2 (V − V_C)/(V + V_C)` of the translational and the peripheral velocity [m/s]: braking positive, 0 at
-/// standstill.
-///
-/// Where wheel and rail move against each other the quotient has a pole (`V_C = −V`) and says nothing; such a wheel
-/// slides more than a locked one, and the creepage stays at the value of the locked wheel, 2. The sign is relative to
-/// the direction of travel: that of a wheel which spins on the spot changes with it, unlike that of `V − V_C`.
-pub fn creepage(v: f64, v_c: f64) -> f64 {
-    if at_rest(v, v_c) {
-        0.0
-    } else if v * v_c < 0.0 {
-        2.0
-    } else {
-        2.0 * (v - v_c) / (v + v_c)
-    }
-}
-
-/// Slide `(V − V_C)/V` of EN 15595 \[1]: 1 for the locked wheel, 0 at standstill; of a wheel that spins on the spot it
-/// is given as if it travelled at the speed [`STANDSTILL`].
-pub fn slide(v: f64, v_c: f64) -> f64 {
-    if at_rest(v, v_c) { 0.0 } else { (v - v_c) / v.abs().max(STANDSTILL).copysign(v) }
-}
-
-/// Dissipated energy per metre travelled \[N] of the dissipated `power` \[W]: 0 at standstill; of a wheel that spins on
-/// the spot it is given as if it travelled at the speed [`STANDSTILL`].
-pub fn per_metre(power: f64, v: f64, v_c: f64) -> f64 {
-    if at_rest(v, v_c) { 0.0 } else { power.max(0.0) / v.abs().max(STANDSTILL) }
-}
-
-/// The one rule of standstill: the speeds of travel and circumference [m/s] together are below [`STANDSTILL`].
-fn at_rest(v: f64, v_c: f64) -> bool {
-    v.abs() + v_c.abs() < STANDSTILL
-}
-
-/// Peripheral velocity that belongs to a velocity and a creepage above −2: `V_C = V (1 − ξ/2)/(1 + ξ/2)`.
-pub fn peripheral_velocity(v: f64, creepage: f64) -> f64 {
-    v * (1.0 - 0.5 * creepage) / (1.0 + 0.5 * creepage)
-}
-
-/// Sum of translational and peripheral speed below which creepage, slide and the energy per metre are reported as zero
-/// [m/s]: a wheel at rest rocks on its elastic contact with some mm/s.
-pub const STANDSTILL: f64 = 0.02;
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn creepage_is_the_thesis_definition_and_bounded() {
-        assert!((creepage(10.0, 9.0) - 2.0 / 19.0).abs() < 1e-15);
-        assert!((creepage(-10.0, -9.0) - 2.0 / 19.0).abs() < 1e-15);
-        assert_eq!(creepage(10.0, 0.0), 2.0);
-        assert_eq!(creepage(0.0, 10.0), -2.0);
-        assert_eq!(creepage(0.0, 0.0), 0.0);
-        assert!((creepage(13.0, peripheral_velocity(13.0, 3e-4)) - 3e-4).abs() < 1e-15);
-    }
-
-    #[test]
-    fn creepage_slide_and_energy_per_metre_know_one_standstill() {
-        let all = |v: f64, v_c: f64| [creepage(v, v_c), slide(v, v_c), per_metre(1e3, v, v_c)];
-        for (v, v_c) in
-            [(0.0, 0.0), (0.5, 0.49), (-0.9, 0.09), (0.0, -0.99)].map(|(v, c)| (v * STANDSTILL, c * STANDSTILL))
-        {
-            assert_eq!(all(v, v_c), [0.0; 3]);
-        }
-        for (v, v_c) in [(0.6, 0.5), (-0.9, 0.2), (0.0, -1.01)].map(|(v, c)| (v * STANDSTILL, c * STANDSTILL)) {
-            assert!(all(v, v_c).iter().all(|value| *value != 0.0), "{:?}", all(v, v_c));
-        }
-        // Locked, the energy per metre is the force; spinning on the spot it stays finite.
-        assert_eq!(per_metre(3e4 * 20.0, -20.0, 0.0), 3e4);
-        assert_eq!(per_metre(1e3, 0.0, 5.0), 1e3 / STANDSTILL);
-    }
 
     #[test]
     fn a_ramp_to_the_end_of_a_range_does_not_leave_it_by_rounding() {
@@ -392,8 +357,9 @@ mod tests {
             let (mut values, mut rates) = ([0.0; COUNT], [0.0; COUNT]);
             (values[k], rates[k]) = (start, slope);
             let (drive, rate) = (Drive::from_values(values), Drive::from_values(rates));
-            let (rotation, translation, vertical) = (Rotation::Moment, Translation::Force, Vertical::Force);
-            Inputs { rotation, translation, vertical, drive, rate }
+            let (rotation, translation, vertical, lateral) =
+                (Rotation::Moment, Translation::Force, Vertical::Force, Lateral::Velocity);
+            Inputs { rotation, translation, vertical, lateral, drive, rate }
         };
         assert!(start + step * (-start / step) < 0.0, "the case rounds below zero");
         for (k, row) in Drive::ROWS.iter().enumerate().filter(|(_, row)| row.low == 0.0) {
@@ -404,9 +370,10 @@ mod tests {
 
     #[test]
     fn a_rate_that_is_not_finite_is_refused_as_a_rate() {
-        let (rotation, translation, vertical) = (Rotation::Moment, Translation::Force, Vertical::Force);
+        let (rotation, translation, vertical, lateral) =
+            (Rotation::Moment, Translation::Force, Vertical::Force, Lateral::Velocity);
         let rate = Drive { load: f64::INFINITY, ..Drive::default() };
-        let inputs = Inputs { rotation, translation, vertical, drive: Drive::default(), rate };
+        let inputs = Inputs { rotation, translation, vertical, lateral, drive: Drive::default(), rate };
         let message = inputs.validate().unwrap_err().to_string();
         assert_eq!(message, "der(drive.load) = inf is outside its range: finite numbers");
     }

@@ -71,6 +71,14 @@ pub enum StepError {
     /// An input outside its range.
     #[error(transparent)]
     Input(#[from] InputError),
+    /// Inputs across the direction of travel of a contact that has none.
+    #[error(
+        "{input}, but the contact has no lateral direction: set contact.lateral = true, or leave it at its start value"
+    )]
+    Longitudinal {
+        /// The input with its value.
+        input: String,
+    },
     /// A communication step outside its range.
     #[error("communication step = {step} s is outside its range: above 0 to {longest} s")]
     StepSize {

@@ -32,9 +32,14 @@ impl State {
         self.lines.iter().reduce(|a, b| if larger(a, b) { b } else { a })
     }
 
-    /// Contact forces of all lines on the wheel: x, y [N/m], forward moment about the hub centre \[N].
+    /// Contact forces of all lines on the wheel: x, y, z [N/m], forward moment about the hub centre \[N].
     pub fn resultant(&self) -> PerAxis<f64> {
         PerAxis::from_fn(|axis| self.sum(|line| line.contact.traction.resultant[axis]))
+    }
+
+    /// Moment of the tractions of all lines on the wheel about the vertical through the centre of load \[N].
+    pub fn spin_moment(&self) -> f64 {
+        self.sum(|line| line.contact.traction.spin_moment)
     }
 
     /// Iterations that the last contact solution took, the same for all lines.
@@ -76,9 +81,10 @@ impl State {
         self.mean_under_load(|line| line.contact.traction.friction.coefficient)
     }
 
-    /// Mean slip velocity of the tread in the contact [m/s].
-    pub fn tread_slip(&self) -> f64 {
-        self.mean_under_load(|line| line.contact.traction.friction.tread_slip)
+    /// Mean slip velocity of the tread in the contact: x, z [m/s].
+    pub fn tread_slip(&self) -> [f64; 2] {
+        let along = self.mean_under_load(|line| line.contact.traction.friction.tread_slip);
+        [along, self.mean_under_load(Line::lateral_slip)]
     }
 
     /// Rigid motions (V [m/s], U \[m], Ω [rad/s]) with which the contact forces were found.

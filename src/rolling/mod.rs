@@ -6,8 +6,8 @@
 //! |---|---|
 //! | [`state`], [`line`](mod@line), [`thermal_state`] | data of a restart: shared ones, those of a contact line, its temperatures |
 //! | [`lines`] | sums, means and extremes over all lines |
-//! | [`control`], [`error`] | inputs; failures |
-//! | [`support`], [`bodies`], [`rigid`], [`patch_lines`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
+//! | [`control`], [`error`], [`creepages`] | inputs; failures; speeds as ratios |
+//! | [`support`], [`bodies`], [`rigid`], [`sideways`], [`patch_lines`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
 //! | [`brake`] | how the wheel is braked and held |
 //! | [`flattening`], [`wear`], `spreading` | what yielding, friction and conduction across the width change in a step |
 //! | [`nodes`] | nodes on which the contact is looked for |
@@ -21,6 +21,7 @@ pub mod bodies;
 pub mod brake;
 pub mod contact_model;
 pub mod control;
+pub mod creepages;
 pub mod elevation;
 pub mod error;
 pub mod fields;
@@ -35,6 +36,7 @@ pub mod patch_lines;
 pub mod profile;
 pub mod rigid;
 pub mod sensitivity;
+pub mod sideways;
 mod spreading;
 pub mod standing;
 pub mod state;
@@ -47,7 +49,7 @@ pub mod thermal;
 pub mod thermal_state;
 pub mod wear;
 
-pub use control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};
+pub use control::{Drive, InputError, Inputs, Lateral, Rotation, Translation, Vertical};
 pub use error::{ModelError, StepError};
 pub use line::Line;
 pub use model::{RollingModel, Workspace};

@@ -1,6 +1,6 @@
 //! Outputs of the model at a communication point. An output is one row here, and its value in [`super::outputs`].
 
-use super::profile::{MOST_LINES, PROFILE_POINTS};
+use super::profile::points;
 use crate::config::units::Measure;
 use serde::{Deserialize, Serialize};
 
@@ -42,25 +42,6 @@ pub struct OutputRow {
     pub read: Read,
     /// Name and meaning of every point of a profile; empty for other outputs.
     pub points: &'static [(&'static str, &'static str)],
-}
-
-/// Name and meaning of the points of a profile or of the lines of the patch, counted from 1.
-macro_rules! points {
-    ($name:literal, $text:literal) => {
-        points!(@numbers $name, $text, 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30
-            31 32 33 34 35 36 37 38 39 40 41 42 43 44 45 46 47 48 49 50 51 52 53 54 55 56 57 58 59 60 61)
-    };
-    (@numbers $name:literal, $text:literal, $($number:literal)*) => {{
-        const POINTS: [(&str, &str); PROFILE_POINTS] =
-            [$( (concat!($name, "[", $number, "]"), concat!($text, ", point ", $number)) ),*];
-        &POINTS
-    }};
-    (lines $name:literal, $text:literal) => { points!(@lines $name, $text, 1 2 3 4 5 6 7 8 9 10 11 12 13) };
-    (@lines $name:literal, $text:literal, $($number:literal)*) => {{
-        const POINTS: [(&str, &str); MOST_LINES] =
-            [$( (concat!($name, "[", $number, "]"), concat!($text, ", line ", $number)) ),*];
-        &POINTS
-    }};
 }
 
 /// Defines the outputs. A row has number, field, sort, name and meaning. Between the last two may stand: `in`, the SI
@@ -154,7 +135,7 @@ outputs! {
         "Adhesion contact.force_x / contact.force_y; 0 without contact";
     307 contact_utilisation: real "contact.utilisation", in "1" as "%", from 0.0,
         "Share of the friction limit in use: friction force over contact.friction contact.force_y. The friction force is the amount of \
-         contact.force_x without what pressure on slopes of the rail adds";
+         contact.force_x and contact.force_z together without what pressure on slopes of the rail adds";
     308 contact_stick_fraction: real "contact.stick_fraction", in "1" as "%", from 0.0 to 1.0,
         "Sticking share of the contact width";
     309 contact_half_width: real "contact.half_width", in "m" as "mm", from 0.0, nominal 5e-3,
@@ -178,6 +159,18 @@ outputs! {
         "Number of lines on which the patch is computed, seen across its width: those of line.*";
     318 contact_patches: count "contact.patches",
         "Number of contact patches; contact.half_width reaches from the first to the last";
+    321 contact_force_z: real "contact.force_z", in "N" as "kN", nominal 1e4,
+        "Lateral contact force on the wheel in the plane of contact, to the right positive; without contact.lateral 0, as all of z";
+    322 contact_moment_y: real "contact.moment_y", in "N.m", nominal 10.0,
+        "Moment of the tractions on the wheel about the normal through the centre of load, z force_x - x force_z, upward positive";
+    323 contact_lateral_creepage: real "contact.lateral_creepage", in "1" as "%", nominal 1e-3,
+        "Lateral creepage 2 V_z/(V + r omega) with the lateral velocity of the hub; 0 at standstill";
+    324 contact_spin: real "contact.spin", in "1/m", nominal 0.1,
+        "Spin 2 sigma/(V + r omega), the angular velocity sigma about the normal clockwise from above positive; 0 at standstill";
+    325 contact_slip_direction: real "contact.slip_direction", in "rad" as "deg", from -3.1416 to 3.1416,
+        "Direction of the mean slip of the tread on the rail, from that of travel to the right positive; 0 where it sticks";
+    326 contact_tread_slip_z: real "contact.tread_slip_z", in "m/s" as "mm/s", nominal 1e-2,
+        "Lateral part of the mean slip velocity of the tread, to the right positive";
     257 rail_profile_height: real "rail.profile_height", in "m" as "mm", nominal 1e-5,
         "Height of rail.profile below the wheel centre, up positive";
     408 wheel_profile_height: real "wheel.profile_height", in "m" as "mm", nominal 1e-5,
@@ -201,6 +194,10 @@ outputs! {
          wheel.profile_save writes it, that lies more than 1 um below the level of the tread without waves and roughness; 0 without one";
     410 flat_depth: real "wheel.flat_depth", in "m" as "mm", from 0.0, nominal 1e-5,
         "Depth of that flat below the level of the tread, made by wheel.profile, yielding and wear";
+    411 wheel_lateral_velocity: real "wheel.lateral_velocity", in "m/s" as "mm/s", nominal 1e-2,
+        "Lateral velocity of the hub in the plane of contact, to the right positive";
+    412 wheel_lateral_displacement: real "wheel.lateral_displacement", in "m" as "mm", nominal 1e-3, start zero,
+        "Way of the hub to the right since the start";
     500 hub_force_x: real "hub.force_x", in "N" as "kN", nominal 1e4,
         "Horizontal force that drives the hub, prescribed or reaction, positive in x; conjugate to wheel.velocity; gravity \
          on a rail.slope acts besides. The wheel's inertia is between it and contact.force_x, which a master that owns the \
@@ -214,6 +211,12 @@ outputs! {
         "Height of the hub above just touching a rail of elevation 0, up positive: the partner of drive.displacement";
     504 hub_vertical_velocity: real "hub.vertical_velocity", in "m/s" as "mm/s", nominal 1e-2,
         "Vertical velocity of the hub, up positive; conjugate to hub.force_y";
+    505 hub_force_z: real "hub.force_z", in "N" as "kN", nominal 1e4,
+        "Lateral force that drives the hub, prescribed or reaction, to the right positive; conjugate to wheel.lateral_velocity";
+    506 hub_lateral_power: real "hub.lateral_power", in "W" as "kW", nominal 1e3,
+        "Power of hub.force_z: that times wheel.lateral_velocity";
+    507 hub_spin_power: real "hub.spin_power", in "W" as "kW", nominal 1e2,
+        "Power of what turns the contact about its normal: contact.moment_y times the angular velocity of contact.spin";
     255 rail_energy: real "rail.energy_per_metre", in "J/m" as "kJ/m", from 0.0, nominal 1e3,
         "Friction energy per metre of rail: heat.friction_power over |wheel.velocity|, or over 0.02 m/s if that is more; 0 at \
          standstill. Equal to damage.t_gamma, which means it as a load on the wheel";
@@ -233,7 +236,8 @@ outputs! {
         "Friction coefficient that holds now: rail.friction with the dependence on slip and temperature";
     313 contact_tread_slip: real "contact.tread_slip", in "m/s" as "mm/s", nominal 1e-2,
         "Slip velocity of the tread on the rail: pressure-weighted mean over the patch, deformation included, 0 where it \
-         sticks and without contact; what friction that depends on slip follows";
+         sticks and without contact; what friction that depends on slip follows, with contact.lateral together with \
+         contact.tread_slip_z";
     610 temperature_wheel_max: real "temperature.wheel_max", in "K" as "degC", from 0.0, nominal 300.0,
         "Highest surface temperature of the wheel in the contact zone (temperatures are absolute; 0 without \
          thermal.enabled). Where friction melts steel it may be up to 50 K above material.liquidus: a molten film carries \
@@ -300,7 +304,7 @@ outputs! {
         "Heat balance since the start: unaccounted heat over all heat that has flowed, from sources and from warm places to cold ones; \
          0 where none has";
     714 surface_fatigue: real "damage.fi_surf", in "1", from -1.0, nominal 0.1,
-        "Surface fatigue index: |contact.force_x| / contact.force_y less the yield strength in shear over contact.pressure_max; \
+        "Surface fatigue index: contact.force_x and contact.force_z together over contact.force_y, less the yield strength in shear over contact.pressure_max; \
          fatigue of the surface is to be expected where it is positive; -1 without contact";
     715 wear_rate: real "damage.wear_rate", in "kg/m" as "mg/m", from 0.0, nominal 1e-6,
         "Mass that the wheel loses per distance rolled by wear: the law of damage.wear_mild and the like for damage.t_gamma over the area of the \
@@ -325,7 +329,7 @@ outputs! {
         "Energy balance since the start: unaccounted over dissipated energy, at least the elastic energy of the \
          contact";
     810 hub_work: real "energy.hub_work", in "J" as "kJ", nominal 1e5, start zero,
-        "Work of the hub forces and the hub moment since the start";
+        "Work of the hub forces and the hub moment since the start, and of what turns the contact about its normal";
     811 thermal_work: real "energy.thermal_work", in "J" as "kJ", nominal 1e2, start zero,
         "Work of heat since the start: the wheel that grows lifts its load, hot layers swell and pull at the surfaces";
     812 stored_energy: real "energy.stored", in "J" as "kJ", nominal 1e5, start zero,
@@ -349,6 +353,10 @@ outputs! {
     12000 profile_shear: profile "profile.shear", in "Pa" as "MPa", nominal 1e8,
         "Shear traction on the wheel, positive in x";
     13000 profile_slip: profile "profile.slip", in "m/s" as "mm/s", nominal 1e-2, "Local slip velocity";
+    24000 profile_shear_z: profile "profile.shear_z", in "Pa" as "MPa", nominal 1e8,
+        "Lateral shear traction on the wheel, to the right positive";
+    25000 profile_slip_z: profile "profile.slip_z", in "m/s" as "mm/s", nominal 1e-2,
+        "Lateral part of the local slip velocity, to the right positive";
     14000 profile_temperature_wheel: profile "profile.temperature_wheel", in "K" as "degC", from 0.0, nominal 300.0,
         "Surface temperature of the wheel";
     15000 profile_temperature_rail: profile "profile.temperature_rail", in "K" as "degC", from 0.0, nominal 300.0,
@@ -363,6 +371,10 @@ outputs! {
         "Normal force of a line on the wheel; contact.force_y is their sum";
     22400 line_pressure_max: lines "line.pressure_max", in "Pa" as "MPa", from 0.0, nominal 1e9,
         "Largest pressure of a line";
+    23200 line_force_z: lines "line.force_z", in "N" as "kN", nominal 1e3,
+        "Lateral force of a line on the wheel, to the right positive; contact.force_z is their sum";
+    23300 line_tread_slip_z: lines "line.tread_slip_z", in "m/s" as "mm/s", nominal 1e-2,
+        "Lateral part of line.tread_slip, to the right positive";
     22500 line_stick: lines "line.stick_fraction", in "1" as "%", from 0.0 to 1.0, "Sticking share of a line";
     22600 line_friction: lines "line.friction", in "1", from 0.0, nominal 0.3, "Friction coefficient of a line";
     22700 line_tread_slip: lines "line.tread_slip", in "m/s" as "mm/s", nominal 1e-2,

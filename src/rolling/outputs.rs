@@ -1,7 +1,7 @@
 //! Observables of a state, for the whole wheel in SI units.
 
 use super::across;
-use super::control::{creepage, per_metre, slide};
+use super::creepages::{creepage, over_mean_speed, per_metre, slide};
 use super::line::Line;
 use super::model::RollingModel;
 use super::output_rows::Outputs;
@@ -31,7 +31,7 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
     let pressed = state.line_of_largest(|line| line.contact.traction.pressure_max).unwrap_or(&none);
     let traction = &pressed.contact.traction;
     let force = state.resultant().map(|force| force * width);
-    let friction_force = state.sum(|line| line.contact.traction.friction_force());
+    let friction_force = libm::hypot(state.sum(|line| line.contact.traction.friction_force()) * width, force.lateral);
     let [v, v_c] = speeds(model, state);
     let points = profile_points(model.zone);
     let others = across::outputs(model, state, surface_outputs(model, state, pressed, others));
@@ -44,7 +44,7 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
         contact_slide: slide(v, v_c),
         contact_slip_velocity: v - v_c,
         contact_adhesion: ratio(force.travel, force.height),
-        contact_utilisation: ratio(friction_force.abs() * width, state.friction() * force.height),
+        contact_utilisation: ratio(friction_force, state.friction() * force.height),
         contact_stick_fraction: state.mean_over_area(|line| line.contact.traction.stick_fraction),
         contact_half_width: state.half_width(),
         contact_width: width * state.covered(),
@@ -56,7 +56,7 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
         contact_lost_time: state.pressing.lost,
         contact_patches: traction.patches.len() as u64,
         friction: state.friction(),
-        contact_tread_slip: state.tread_slip(),
+        contact_tread_slip: state.tread_slip()[0],
         yielded: state.mean_over_area(|line| line.contact.traction.yielding.share),
         internal_steps: state.clock.internal_steps,
         limited_steps: state.clock.limited_steps,
@@ -65,8 +65,31 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
         profile_pressure: sampled(&traction.pressure, &points),
         profile_shear: sampled(&traction.shear, &points),
         profile_slip: sampled(&traction.slip, &points),
+        profile_shear_z: sampled(&traction.lateral_shear, &points),
+        profile_slip_z: sampled(&traction.lateral_slip, &points),
         profile_x: points,
-        ..motion_outputs(model, state, others)
+        ..lateral_outputs(model, state, motion_outputs(model, state, others))
+    }
+}
+
+/// Outputs across the direction of travel, and about turning.
+fn lateral_outputs(model: &RollingModel, state: &State, others: Outputs) -> Outputs {
+    let (width, velocity, spin) = (model.wheel.width, state.motion.lateral.now, state.motion.spin);
+    let ([v, v_c], [along, aside]) = (speeds(model, state), state.tread_slip());
+    let (force, moment) = (width * state.hub.force.lateral, width * state.spin_moment());
+    Outputs {
+        contact_force_z: width * state.resultant().lateral,
+        contact_moment_y: moment,
+        contact_lateral_creepage: over_mean_speed(velocity, v, v_c),
+        contact_spin: over_mean_speed(spin, v, v_c),
+        contact_slip_direction: if model.wheel.sideways.enabled { libm::atan2(aside, along) } else { 0.0 },
+        contact_tread_slip_z: aside,
+        wheel_lateral_velocity: velocity,
+        wheel_lateral_displacement: state.motion.aside,
+        hub_force_z: force,
+        hub_lateral_power: force * velocity,
+        hub_spin_power: moment * spin,
+        ..others
     }
 }
 
@@ -108,7 +131,7 @@ fn energy_outputs(model: &RollingModel, state: &State, pressure_max: f64, others
     let [v, v_c] = speeds(model, state);
     let t_gamma = per_metre(state.friction_power * width, v, v_c);
     let area = width * state.sum(|line| line.contact.traction.touching());
-    let adhesion = ratio(force.travel.abs(), force.height);
+    let adhesion = ratio(libm::hypot(force.travel, force.lateral), force.height);
     Outputs {
         brake_energy: audit.brake * width,
         friction_power: state.friction_power * width,

@@ -17,7 +17,12 @@ pub fn apart(config: &Config) -> LineKernel {
     let [tangential, rigid, yielding] = REACHES;
     let normal = if config.rail.support_stiffness > 0.0 { yielding } else { rigid };
     let along = |reach: f64| Logarithm { factor: half_plane.kernel, reach: libm::log(reach) };
-    LineKernel { tangential: along(tangential), normal: along(normal), coupling: half_plane.coupling }
+    LineKernel {
+        tangential: along(tangential),
+        normal: along(normal),
+        lateral: Logarithm::default(),
+        coupling: half_plane.coupling,
+    }
 }
 
 /// Lines of the patch.
@@ -72,6 +77,9 @@ impl PatchLines {
             (_, Some(PatchRows { rows, shapes })) => PatchLayout::rows(rows, &shapes, material, lines, radius, width),
             (_, None) => PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load),
         };
+        if config.contact.lateral {
+            return Ok(Self::Sized(patch.sideways()));
+        }
         if smooth {
             return Ok(Self::Sized(patch));
         }
@@ -176,9 +184,9 @@ impl PatchLines {
     /// True if the lines of a state are as many, and have finite layouts.
     pub fn fits(&self, lines: &[Line]) -> bool {
         let sound = |line: &Line| {
-            let LineLayout { ordinate, share, half_length, gap, kernel, energy } = line.layout;
+            let LineLayout { ordinate, position, share, half_length, gap, kernel, energy } = line.layout;
             let sizes = [share, half_length].iter().all(|size| *size > 0.0 && size.is_finite());
-            sizes && kernel.is_sound() && [ordinate, gap, energy].iter().all(|value| value.is_finite())
+            sizes && kernel.is_sound() && [ordinate, position, gap, energy].iter().all(|value| value.is_finite())
         };
         match self {
             Self::Constant { lines: layouts, .. } => lines.iter().map(|line| line.layout).eq(layouts.iter().copied()),

@@ -1,7 +1,8 @@
-//! The rigid motion of the wheel: inertia, what drives its three axes, reactions.
+//! The rigid motion of the wheel: inertia, what drives its axes, reactions.
 
-use super::control::{Drive, InputError, Inputs, Rotation, Translation, Vertical};
+use super::control::{Drive, InputError, Inputs, Lateral, Rotation, Translation, Vertical};
 use super::error::StepError;
+use super::sideways::Sideways;
 use super::state::{Motion, State};
 use crate::axes::{Axis, PerAxis};
 use crate::config::Config;
@@ -25,10 +26,12 @@ pub struct RigidWheel {
     pub radius: f64,
     /// Width of the line contact \[m]: forces of the wheel = width × forces per metre.
     pub width: f64,
-    /// Inertia in x (with vehicle) and in y [kg/m], about the axle [kg m].
+    /// Inertia in x (with vehicle), in y and in z (with what moves with the hub) [kg/m], about the axle [kg m].
     pub inertia: PerAxis<f64>,
     /// Damper between the hub and the vehicle in y [N s/m per m].
     damping: f64,
+    /// What carries the contact in z.
+    pub sideways: Sideways,
     /// Speed of surface waves in its material [m/s].
     wave_speed: f64,
 }
@@ -38,11 +41,13 @@ impl RigidWheel {
     pub fn new(config: &Config) -> Self {
         let width = config.width();
         let mass = mechanics::wheel_mass(config) + config.wheel.hub_mass / width;
+        let lateral = mass + config.wheel.lateral_mass / width;
         let moment = mechanics::wheel_inertia(config) + config.wheel.hub_inertia / width;
         Self {
             radius: config.wheel.radius,
             width,
-            inertia: PerAxis { travel: mass + config.vehicle.mass / width, height: mass, rotation: moment },
+            inertia: PerAxis { travel: mass + config.vehicle.mass / width, height: mass, rotation: moment, lateral },
+            sideways: Sideways::new(config, lateral),
             damping: config.vehicle.damping / width,
             wave_speed: Isotropic::from(&config.material).rayleigh_speed(),
         }
@@ -62,6 +67,10 @@ impl RigidWheel {
             rotation: match inputs.rotation {
                 Rotation::Moment => AxisDrive::of(target.moment / self.width, target.torque / self.width),
                 Rotation::Velocity => AxisDrive::Prescribed { target: target.omega },
+            },
+            lateral: match inputs.lateral {
+                Lateral::Force => AxisDrive::Free { load: target.lateral_force / self.width },
+                Lateral::Velocity => AxisDrive::Prescribed { target: target.lateral_velocity },
             },
         }
     }
@@ -84,7 +93,7 @@ impl RigidWheel {
     }
 
     /// The rigid motions of a step as unknowns of the contact problem, by the time formulas of velocities and of
-    /// the hub height; `speeds` are the predicted ones, `momentum` is that of the free deformation.
+    /// the hub height; `speeds` are the predicted ones, `momentum` is that of the free deformation, and `lateral` the motion in z.
     ///
     /// The damper resists `U̇`. In the time formula `Ü = a0 U̇ + h` with what is known of the velocity, h, so that
     /// `c U̇ = c/a0 (Ü − h)`: a mass more, and a known momentum.
@@ -95,6 +104,7 @@ impl RigidWheel {
         [td, of_height]: [&TimeDerivative; 2],
         speeds: [f64; 2],
         momentum: PerAxis<f64>,
+        lateral: RigidMotion,
     ) -> PerAxis<RigidMotion> {
         let known = motion.hub_velocity.offset(td);
         let motion_of = |axis: Axis, guess: f64, gain: f64, offset: f64| RigidMotion {
@@ -113,6 +123,7 @@ impl RigidWheel {
             travel: motion_of(Axis::Travel, speeds[0], td.a0, motion.velocity.offset(td)),
             height: hub,
             rotation: motion_of(Axis::Rotation, speeds[1], td.a0, motion.omega.offset(td)),
+            lateral,
         }
     }
 
@@ -157,9 +168,9 @@ impl RigidWheel {
     /// Refuses motions well outside the ranges of the inputs that could prescribe them, and velocities at
     /// which loads outrun the surface waves of rail or wheel: the moving frames have no stable solution there.
     pub fn check(&self, motions: PerAxis<f64>) -> Result<(), StepError> {
-        let PerAxis { travel: velocity, height: displacement, rotation: omega, .. } = motions;
+        let PerAxis { travel: velocity, height: displacement, rotation: omega, lateral: lateral_velocity } = motions;
         // What is prescribed ends within its range; a free wheel that starts at its end may drift a little.
-        let motion = Drive { velocity, displacement, omega, ..Drive::default() };
+        let motion = Drive { velocity, displacement, omega, lateral_velocity, ..Drive::default() };
         motion.zip(&motion, |value, _| value / MOTION_MARGIN).validate().map_err(|error| {
             let [value, low, high] = [error.value, error.low, error.high].map(|limit| limit * MOTION_MARGIN);
             StepError::Motion(InputError { value, low, high, ..error })

@@ -56,6 +56,7 @@ fn scales(model: &RollingModel, inputs: &Inputs, state: &State) -> Drive {
     let config = &model.config;
     let load = config.model.nominal_load;
     let (speed, radius) = (0.1 * state.motion.velocity.now.abs().max(1.0), config.wheel.radius);
+    let half_width = model.contact.nominal_half_width();
     let approach = (state.elevation - state.motion.height.now).abs().max(1e-5);
     Drive {
         omega: speed / radius,
@@ -64,6 +65,10 @@ fn scales(model: &RollingModel, inputs: &Inputs, state: &State) -> Drive {
         force: load,
         load,
         load_change: load,
+        lateral_velocity: speed,
+        lateral_force: load,
+        spin: 0.1 / half_width,
+        contact_angle: 0.1 * radius / half_width,
         displacement: approach,
         friction: 1.0,
         torque: load * radius,
@@ -91,7 +96,7 @@ pub fn difference(
     workspace: &mut Workspace,
 ) -> Result<Difference, StepError> {
     let (Origin::Stationary(inputs) | Origin::Step { inputs, .. }) = origin;
-    let scales = scales(model, inputs, state);
+    let (scales, direction) = (scales(model, inputs, state), &model.wheel.sideways.acting(direction));
     let size = direction.zip(&scales, |d, s| (d / s).abs()).values().into_iter().fold(0.0, f64::max);
     let present = Box::new(observe_all(model, state));
     if size == 0.0 {

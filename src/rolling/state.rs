@@ -2,6 +2,7 @@
 
 use super::elevation::Rise;
 use super::line::Line;
+use super::sideways::SideMotion;
 use super::support::BaseMotion;
 use crate::axes::PerAxis;
 use crate::heat::LateralHistory;
@@ -26,6 +27,8 @@ pub struct State {
     pub rise: Rise,
     /// Motion of the base of the rail.
     pub base: BaseMotion,
+    /// Deflections in z of tread and rail head.
+    pub side: SideMotion,
     /// Contact lines side by side.
     pub lines: Vec<Line>,
     /// How long heat has not spread from line to line.
@@ -143,22 +146,38 @@ pub struct Motion {
     pub height: History,
     /// Vertical velocity of the hub U̇ [m/s].
     pub hub_velocity: History,
+    /// Lateral displacement of the hub since the start, to the right positive \[m].
+    pub aside: f64,
+    /// Its lateral velocity V_z [m/s].
+    pub lateral: History,
+    /// Angular velocity about the normal of the contact, clockwise from above positive [rad/s].
+    pub spin: f64,
 }
 
 impl Motion {
-    /// Values of the rigid motions (V [m/s], U \[m], Ω [rad/s]).
+    /// Values of the rigid motions (V [m/s], U \[m], Ω [rad/s], V_z [m/s]).
     pub fn values(&self) -> PerAxis<f64> {
-        PerAxis { travel: self.velocity.now, height: self.height.now, rotation: self.omega.now }
+        PerAxis { height: self.height.now, ..self.velocities() }
     }
 
-    /// Velocities conjugate to the hub forces (V, U̇ [m/s], Ω [rad/s]).
+    /// Velocities conjugate to the hub forces (V, U̇ [m/s], Ω [rad/s], V_z [m/s]).
     pub fn velocities(&self) -> PerAxis<f64> {
-        PerAxis { travel: self.velocity.now, height: self.height.rate, rotation: self.omega.now }
+        PerAxis {
+            travel: self.velocity.now,
+            height: self.height.rate,
+            rotation: self.omega.now,
+            lateral: self.lateral.now,
+        }
     }
 
-    /// Rigid accelerations (V̇, Ü [m/s²], Ω̇ [rad/s²]).
+    /// Rigid accelerations (V̇, Ü [m/s²], Ω̇ [rad/s²], V̇_z [m/s²]).
     pub fn accelerations(&self) -> PerAxis<f64> {
-        PerAxis { travel: self.velocity.rate, height: self.hub_velocity.rate, rotation: self.omega.rate }
+        PerAxis {
+            travel: self.velocity.rate,
+            height: self.hub_velocity.rate,
+            rotation: self.omega.rate,
+            lateral: self.lateral.rate,
+        }
     }
 }
 
@@ -188,14 +207,16 @@ pub struct Controlled {
     pub resisting: PerAxis<f64>,
     /// Force of the damper between hub and vehicle on the latter [N/m].
     pub damper: f64,
-    /// Mean slip of the tread in the patch [m/s].
-    pub slip: f64,
+    /// Mean slip of the tread in the patch: x, z [m/s].
+    pub slip: [f64; 2],
     /// Pressure-weighted mean rises of temperature of wheel and rail in the patch \[K].
     pub temperatures: [f64; 2],
     /// Translational velocity [m/s].
     pub velocity: f64,
     /// Angular velocity [rad/s].
     pub omega: f64,
+    /// Lateral velocity of the hub [m/s].
+    pub lateral: f64,
 }
 
 /// Energy balance since the start, per metre of width.
@@ -205,8 +226,10 @@ pub struct Audit {
     pub initial_energy: f64,
     /// Present kinetic and elastic energy [J/m].
     pub energy: f64,
-    /// Work of the hub forces [J/m].
+    /// Work of the hub forces, and of what turns the contact about its normal [J/m].
     pub work: f64,
+    /// Work of what turns the contact about its normal; part of the work of the hub forces [J/m].
+    pub spinning: f64,
     /// Work of the wheel that grows with its temperature and lifts its load [J/m].
     pub thermal_work: f64,
     /// Work of gravity along the track; part of the work of the hub forces [J/m].
@@ -225,8 +248,10 @@ pub struct Audit {
     pub throughput: f64,
     /// Present power of damping and radiation in the bodies and the track [W/m].
     pub damping_power: f64,
-    /// Impulses of the hub forces (x, y, moment) in the last step [N s/m, N s/m, N s].
+    /// Impulses of the hub forces (x, y, moment, z) in the last step [N s/m, N s/m, N s, N s/m].
     pub impulse: PerAxis<f64>,
+    /// Impulse of the moment of the contact about its normal in it [N s].
+    pub turning: f64,
     /// Impulse of the vertical contact force in it [N s/m].
     pub pressed: f64,
     /// Energy lost to damping and radiation in the bodies and the track in it [J/m].

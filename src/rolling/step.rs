@@ -8,8 +8,9 @@ use super::flattening;
 use super::line::Line;
 use super::model::{RollingModel, Workspace};
 use super::nodes;
+use super::sideways;
 use super::spreading;
-use super::state::{Brake, Motion, State};
+use super::state::{Brake, HubForces, Motion, State};
 use super::thermal::{self, HeatStep, HeatSupply, ThermalLine, ThermalScratch};
 use super::wear;
 use crate::axes::PerAxis;
@@ -181,10 +182,27 @@ impl Plan {
             let before = &traction.friction;
             let rise = || model.thermal.as_ref().map_or(0.0, |thermal| thermal.warming.by_friction(traction, dt));
             let friction = Friction::remembering(law, available, heating, ratio, before.coefficient, rise);
-            friction.after(dt, before.coefficient, before.tread_slip, heating)
+            friction.after(dt, before.coefficient, before.slip_speed, heating)
         });
         let friction = friction.collect();
         Self { dt, td, of_height, restarted: before == 0.0, drives, given, speeds, friction }
+    }
+}
+
+impl Plan {
+    /// Forces on the hub after the step that ends with a `motion`, given those as the time formula takes them.
+    fn hub(&self, model: &RollingModel, demand: &Demand, driving: PerAxis<f64>, motion: &Motion) -> HubForces {
+        let Self { td, dt, drives, given, .. } = self;
+        let brake = Brake::applied(given.rotation, drives.rotation, motion, driving.rotation, [td.a0, *dt]);
+        let mut force = PerAxis::from_fn(|axis| given[axis].loads().map_or(driving[axis], |[load, _]| load));
+        force.rotation += brake.moment;
+        HubForces {
+            force,
+            driving,
+            gravity: model.wheel.gravity(demand.target),
+            brake,
+            prescribed: drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. })),
+        }
     }
 }
 
@@ -209,10 +227,13 @@ fn solve_and_commit(
         moved_by(state.motion.distance, &state.motion.velocity, speeds[0], *dt),
         moved_by(state.motion.angle, &state.motion.omega, speeds[1], *dt),
     ];
+    let side = model.wheel.sideways.step(&state.motion.lateral, &state.side, drives.lateral, td);
+    let lateral = side.motion(state.resultant().lateral);
     let contact = ContactStep {
         operators: &operators,
         free,
-        rigid: model.wheel.motions(&state.motion, drives, [td, of_height], *speeds, free[0].momentum),
+        rigid: model.wheel.motions(&state.motion, drives, [td, of_height], *speeds, free[0].momentum, lateral),
+        spin: sideways::spin(demand.target),
         time: *td,
         duration: *dt,
         place,
@@ -224,24 +245,23 @@ fn solve_and_commit(
     let solved = model.contact.solve(&contact, &state.lines, &mut next.lines, &mut workspace.contact);
     solved.map_err(|error| model.contact.failure(error, state.clock.time, *dt))?;
 
-    next.motion = moved(&state.motion, [td, of_height], next.rigid());
+    next.motion = moved(&state.motion, [td, of_height], next.rigid(), *dt);
+    next.motion.spin = contact.spin.velocity(next.rigid());
+    next.side = state.side;
+    let aside = side.advance(next.resultant().lateral, td, &mut next.motion.lateral, &mut next.side);
+    next.motion.aside = moved_by(state.motion.aside, &state.motion.lateral, next.motion.lateral.now, *dt);
     model.bodies.commit(&operators, free, next.motion.accelerations(), td, state, next);
-    let driving = {
+    let mut driving = {
         let (forces, resultant) = (next.loads(0), next.resultant());
         model.wheel.hub_forces(drives, &next.motion, &operators.wheel, &free[0], &forces, resultant)
     };
-    next.hub.driving = driving;
-    next.hub.brake =
-        Brake::applied(plan.given.rotation, drives.rotation, &next.motion, next.hub.driving.rotation, [td.a0, *dt]);
-    next.hub.force = PerAxis::from_fn(|axis| plan.given[axis].loads().map_or(next.hub.driving[axis], |[load, _]| load));
-    next.hub.force.rotation += next.hub.brake.moment;
-    next.hub.gravity = model.wheel.gravity(demand.target);
+    if let AxisDrive::Prescribed { .. } = drives.lateral {
+        driving.lateral = aside;
+    }
+    next.hub = plan.hub(model, demand, driving, &next.motion);
     next.elevation = demand.target.elevation;
     next.clock.time = state.clock.time + dt;
     next.clock.pending = 0.0;
-    next.motion.distance = moved_by(state.motion.distance, &state.motion.velocity, next.motion.velocity.now, *dt);
-    next.motion.angle = moved_by(state.motion.angle, &state.motion.omega, next.motion.omega.now, *dt);
-    next.hub.prescribed = drives.map(|drive| matches!(drive, AxisDrive::Prescribed { .. }));
     next.available_friction = demand.target.friction;
     next.clock.last_step = *dt;
     flattening::indent(model, state, place, next);
@@ -255,9 +275,11 @@ fn moved_by(place: f64, speed: &History, to: f64, dt: f64) -> f64 {
     place + 0.5 * dt * (speed.now + to)
 }
 
-/// Rigid motion after a step that ends with the values `end`.
-fn moved(motion: &Motion, [td, of_height]: [&TimeDerivative; 2], end: PerAxis<f64>) -> Motion {
+/// Rigid motion but that to the side after a step of `dt` seconds that ends with the values `end`.
+fn moved(motion: &Motion, [td, of_height]: [&TimeDerivative; 2], end: PerAxis<f64>, dt: f64) -> Motion {
     let mut next = *motion;
+    next.distance = moved_by(motion.distance, &motion.velocity, end.travel, dt);
+    next.angle = moved_by(motion.angle, &motion.omega, end.rotation, dt);
     next.velocity.push(td, end.travel);
     next.height.push(of_height, end.height);
     next.hub_velocity.push(td, next.height.rate);

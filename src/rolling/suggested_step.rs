@@ -15,7 +15,8 @@ const SMALLEST: f64 = 1e-6;
 ///
 /// Who prescribes velocities integrates an inertia against the contact, which on the initial slope of Carter's
 /// theory is a damper between V and rΩ: `c = 2 F_n r/(a V)`. With the effective mass m of the prescribed motions
-/// (the inertias that the parameters give to the wheel; vehicle included in x) explicit exchange needs `h < 2m/c`
+/// (the inertias that the parameters give to the wheel; vehicle included in x; sideways, where the damper is about the same, with
+/// what moves with the hub) explicit exchange needs `h < 2m/c`
 /// and less. Who prescribes the hub height integrates against the contact stiffness, `h < 2√(m/k)`. Forces and
 /// moments as inputs leave the stiff motion to this model and set no limit (1 s).
 pub fn suggested_step(model: &RollingModel, state: &State) -> f64 {
@@ -25,6 +26,8 @@ pub fn suggested_step(model: &RollingModel, state: &State) -> f64 {
     let compliance = |prescribed: bool, inverse: f64| if prescribed { inverse } else { 0.0 };
     let inverse_mass = compliance(prescribed.travel, 1.0 / inertia.travel)
         + compliance(prescribed.rotation, radius * radius / inertia.rotation);
+    let aside = model.wheel.sideways.enabled && prescribed.lateral;
+    let inverse_mass = inverse_mass.max(compliance(aside, 1.0 / inertia.lateral));
     let mut suggestion = LARGEST;
     if inverse_mass > 0.0 && load > 0.0 {
         let speed = 0.5 * (state.motion.velocity.now + radius * state.motion.omega.now).abs();

@@ -4,7 +4,7 @@
 //! taken off where friction dissipates, from the material that has passed there in the step. The wheel keeps all of it.
 //! The rail, from which one passage takes a negligible depth, keeps it where the contact stays.
 
-use super::control::{STANDSTILL, per_metre};
+use super::creepages::{STANDSTILL, per_metre};
 use super::flattening::Passing;
 use super::line::Line;
 use super::model::RollingModel;

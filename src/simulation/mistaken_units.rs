@@ -17,6 +17,9 @@ const FAR: f64 = 200.0;
 const NEAR: f64 = 10.0;
 /// Speed \[m/s] that no wheel on a rail has: it is one in km/h.
 const FASTEST: f64 = 100.0;
+/// Spin [1/m] and angle of contact \[rad] that no wheel has: they look like degrees.
+const TURNED: f64 = 4.0;
+const STEEP: f64 = 1.3;
 /// Friction coefficient \[1] that steel on steel does not have, and the smallest creepage of a wheel that nearly stands
 /// still while it travels: both look like percentages.
 const STICKIEST: f64 = 2.0;
@@ -52,6 +55,9 @@ pub fn unusual(name: &str, kind: Kind, value: f64, usual: f64) -> Option<String>
             display_number(0.01 * value)
         ));
     }
+    if let Some(turned) = in_degrees(name, unit, value) {
+        return Some(turned);
+    }
     let shown = display?;
     if (unit, shown) == ("rad", "deg") && value.abs() > TAU && value.fract() == 0.0 {
         return Some(format!(
@@ -72,6 +78,22 @@ pub fn unusual(name: &str, kind: Kind, value: f64, usual: f64) -> Option<String>
             "{name} = {} {unit} is of an unusual size; if {0} {shown} are meant, set {}",
             display_number(value),
             display_number(meant)
+        )
+    })
+}
+
+/// Message about spin or an angle of contact beyond those of wheels.
+fn in_degrees(name: &str, unit: &str, value: f64) -> Option<String> {
+    let (most, degrees) = match name {
+        "drive.spin" => (TURNED, "deg/m"),
+        "drive.contact_angle" => (STEEP, "deg"),
+        _ => return None,
+    };
+    (value.abs() > most || value.abs() == 1.0 && name == "drive.contact_angle").then(|| {
+        format!(
+            "{name} = {} {unit} is more than a flange has; if {0} {degrees} are meant, set {}",
+            display_number(value),
+            display_number(value.to_radians())
         )
     })
 }
@@ -100,6 +122,13 @@ mod tests {
         ] {
             let text = unusual(name, kind(name), value, usual).unwrap();
             assert!(text.starts_with(&format!("{name} = ")) && text.ends_with(&format!("set {meant}")), "{text}");
+        }
+        for (name, value, unit, meant) in
+            [("drive.spin", 5.0, "1/m", "0.0872665"), ("drive.contact_angle", -1.0, "rad", "-0.0174533")]
+        {
+            let text = in_degrees(name, unit, value).unwrap();
+            assert!(text.ends_with(&format!("set {meant}")), "{text}");
+            assert_eq!(in_degrees(name, unit, 0.5), None);
         }
         let text = cold("thermal.reference", kind("thermal.reference"), 20.0).unwrap();
         assert!(text.contains("-253.15 degC") && text.ends_with("set 293.15"), "{text}");

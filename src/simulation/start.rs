@@ -1,8 +1,8 @@
 //! Obstacles to a start that was not found, in the words of the user.
 
-use super::{Drive, Inputs, Translation};
+use super::{Drive, Inputs, STANDSTILL, Translation};
 use crate::config::{Config, display_number};
-use crate::rolling::control::creepage;
+use crate::rolling::creepages::creepage;
 
 /// Loads over the nominal one between which a start is usual \[1].
 const LOADS: [f64; 2] = [0.5, 1.5];
@@ -53,6 +53,11 @@ fn unusual(config: &Config, inputs: &Inputs) -> Vec<String> {
         }
     }
     found.extend(slide(config, inputs));
+    let aside = drive.lateral_velocity / config.initial.velocity.abs().max(STANDSTILL);
+    if aside.abs() > CREEPAGE {
+        let (value, percent) = (number(drive.lateral_velocity), number(100.0 * aside));
+        found.push(format!("drive.lateral_velocity = {value} m/s, {percent} % of the speed"));
+    }
     for (name, excess) in
         [("thermal.wheel_excess", thermal.wheel_excess), ("rail.temperature", drive.temperature - thermal.reference)]
     {

@@ -244,10 +244,16 @@ impl Simulation {
         if falls && self.slides() { self.model().rolling.torsion * self.state().clock.last_step } else { 0.0 }
     }
 
+    /// Mean slip velocity of the tread [m/s].
+    fn slip(&self) -> f64 {
+        let outputs = self.outputs();
+        libm::hypot(outputs.contact_tread_slip, outputs.contact_tread_slip_z)
+    }
+
     /// Full sliding in a loaded contact.
     fn slides(&self) -> bool {
         let outputs = self.outputs();
-        outputs.contact_tread_slip != 0.0 && outputs.contact_stick_fraction == 0.0
+        self.slip() != 0.0 && outputs.contact_stick_fraction == 0.0
     }
 
     /// Internal step up to which several coefficients of friction fit \[s], 0 where one does: the tread has no mass of
@@ -258,7 +264,7 @@ impl Simulation {
             return 0.0;
         }
         let outputs = self.outputs();
-        let slip = outputs.contact_tread_slip.abs();
+        let slip = self.slip();
         let fall = law.fall(state.available_friction, slip);
         let half_width = nominal_half_width(config);
         let load = outputs.contact_force_y / config.model.nominal_load;

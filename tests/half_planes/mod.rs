@@ -5,13 +5,13 @@
 
 use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{HalfPlane, carter_force, carter_full_slip, contact_modulus, hertz_half_width};
-use wheelrail::axes::PerAxis;
+use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::kernel::logarithms;
 use wheelrail::contact::line::{ContactGrid, GridState};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
-    LineKernel, LineProblem, RigidMotion, SolverState, SteelLimits, SurfaceResponse,
+    LineKernel, LineProblem, RigidMotion, SolverState, Spin, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -19,6 +19,8 @@ use wheelrail::surface::{Flattening, Placement, Profile, Surfaces};
 
 /// Radius of the cylinder [m].
 pub const RADIUS: f64 = 0.5;
+/// Rigid motions of the wheel.
+const AXES: usize = Axis::COUNT;
 /// Friction coefficient [1].
 pub const FRICTION: f64 = 0.4;
 /// Nominal line load [N/m].
@@ -71,7 +73,7 @@ impl HalfPlanes {
         let half =
             DMatrix::from_fn(n, n, |i, j| if i % 2 == j % 2 { 0.5 * kernel[(i / 2).abs_diff(j / 2)] } else { 0.0 });
         let solver = ActiveSetSolver::new(grid.clone());
-        let none = [DMatrix::zeros(n, 3), DMatrix::zeros(3, n), DMatrix::zeros(3, 3)];
+        let none = [DMatrix::zeros(n, AXES), DMatrix::zeros(AXES, n), DMatrix::zeros(AXES, AXES)];
         let (relative, free) = (2.0 * &half, [DVector::zeros(n), DVector::zeros(n)]);
         Self { grid, surfaces: Surfaces::smooth(RADIUS), solver, half, relative, free, none }
     }
@@ -150,6 +152,7 @@ impl HalfPlanes {
             problems.push(LineProblem {
                 patch: None,
                 share: line.share,
+                position: 0.0,
                 kernel: kernel(alone.map_or(1.0, |(_, length)| length)),
                 bodies: SurfaceResponse {
                     shared,
@@ -179,7 +182,13 @@ impl HalfPlanes {
         }
         let problem = ContactProblem {
             lines: problems,
-            rigid: PerAxis { travel: RigidMotion::held(v, 0.0), height: hub, rotation: RigidMotion::held(omega, 0.0) },
+            rigid: PerAxis {
+                travel: RigidMotion::held(v, 0.0),
+                height: hub,
+                rotation: RigidMotion::held(omega, 0.0),
+                lateral: RigidMotion::held(0.0, 0.0),
+            },
+            spin: Spin::default(),
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,
             layouts: None,

@@ -15,7 +15,7 @@ use wheelrail::contact::line::kernel::logarithms;
 use wheelrail::contact::series::SeriesSolver;
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactSolver, ContactState, Friction, LineLayout, PatchLayout, PatchMaterial, Ports,
-    RigidMotion,
+    RigidMotion, Spin,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::patch::Hertz;
@@ -89,6 +89,12 @@ impl HalfSpaces {
         Self::build(aspect, lines, 4, |_| Box::new(SeriesSolver::new(REACH)))
     }
 
+    /// As [`Self::new`], and every line takes lateral creepage and spin.
+    pub fn sideways(aspect: f64, lines: usize) -> Self {
+        let along = Self::new(aspect, lines);
+        Self { patch: along.patch.sideways(), ..along }
+    }
+
     /// Beside a grid of a number of `nodes` per half axis along the direction of rolling.
     pub fn with_grid(aspect: f64, lines: usize, nodes: u32) -> Self {
         Self::build(aspect, lines, nodes, |grid| {
@@ -154,6 +160,18 @@ impl HalfSpaces {
         laws: (TimeDerivative, Friction),
         start: &Lines,
     ) -> Result<Lines, ContactError> {
+        self.solve_sideways(load, [motion[0], motion[1], RigidMotion::held(0.0, 0.0)], Spin::default(), laws, start)
+    }
+
+    /// Contact under a `load`; `motion` are those of translation, rotation and lateral translation.
+    pub fn solve_sideways(
+        &self,
+        load: f64,
+        motion: [RigidMotion; 3],
+        spin: Spin,
+        laws: (TimeDerivative, Friction),
+        start: &Lines,
+    ) -> Result<Lines, ContactError> {
         let layout = self.layout(load);
         let [smooth, nodes] = &self.bodies;
         let (bodies, logarithms) = match start.iter().all(|line| line.ports == Ports::Smooth) {
@@ -162,7 +180,7 @@ impl HalfSpaces {
         };
         let load = [load / WIDTH, LOAD / WIDTH];
         let (lines, flexibility) = ((&layout[..], logarithms), Some(&**self.patch.flexibility()));
-        let step = Step { radius: self.radius, lines, flexibility, load, motion, laws };
+        let step = Step { radius: self.radius, lines, flexibility, load, motion, spin, laws };
         bodies.solve(&*self.solver, &step, start)
     }
 

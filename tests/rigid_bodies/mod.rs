@@ -2,10 +2,10 @@
 #![allow(dead_code)]
 
 use nalgebra::{DMatrix, DVector};
-use wheelrail::axes::PerAxis;
+use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, InPatch, Influence,
-    LineLayout, LineProblem, PatchFlexibility, RigidMotion, SteelLimits, SurfaceResponse,
+    LineLayout, LineProblem, PatchFlexibility, RigidMotion, Spin, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -13,6 +13,8 @@ use wheelrail::surface::{Flattening, Placement, Surfaces};
 
 /// Displacement components at the points of smooth bodies.
 pub const SMOOTH: usize = 10;
+/// Rigid motions of the wheel.
+const AXES: usize = Axis::COUNT;
 
 /// Bodies that do not yield.
 pub struct RigidBodies {
@@ -30,8 +32,10 @@ pub struct Step<'a> {
     pub flexibility: Option<&'a PatchFlexibility>,
     /// Load per metre of the bodies' width, and that which scales tolerances [N/m].
     pub load: [f64; 2],
-    /// Translation and rotation.
-    pub motion: [RigidMotion; 2],
+    /// Translation, rotation and lateral translation.
+    pub motion: [RigidMotion; 3],
+    /// Spin.
+    pub spin: Spin,
     /// Time formula, and friction of all lines.
     pub laws: (TimeDerivative, Friction),
 }
@@ -40,7 +44,10 @@ impl RigidBodies {
     /// Bodies with a number of displacement components at their surfaces.
     pub fn new(ports: usize) -> Self {
         let of = |rows, columns| DMatrix::zeros(rows, columns);
-        Self { none: [of(ports, ports), of(ports, 3), of(3, ports), of(3, 3)], still: DVector::zeros(ports) }
+        Self {
+            none: [of(ports, ports), of(ports, AXES), of(AXES, ports), of(AXES, AXES)],
+            still: DVector::zeros(ports),
+        }
     }
 
     fn response<'a>(&'a self, logarithms: Option<&'a DMatrix<f64>>) -> SurfaceResponse<'a> {
@@ -68,6 +75,7 @@ impl RigidBodies {
             lines: (layout, logarithms),
             load: [load, nominal_load],
             motion,
+            spin,
             laws: (time, friction),
             flexibility,
         } = *step;
@@ -75,6 +83,7 @@ impl RigidBodies {
         let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(radius));
         let line = |(line, layout): (usize, &LineLayout)| LineProblem {
             share: layout.share,
+            position: layout.position,
             kernel: layout.kernel,
             patch: flexibility.map(|flexibility| InPatch { flexibility, line, half_length: layout.half_length }),
             bodies: self.response(logarithms),
@@ -95,7 +104,8 @@ impl RigidBodies {
         };
         let problem = ContactProblem {
             lines: layout.iter().enumerate().map(line).collect(),
-            rigid: PerAxis { travel: motion[0], height: hub, rotation: motion[1] },
+            rigid: PerAxis { travel: motion[0], height: hub, rotation: motion[1], lateral: motion[2] },
+            spin,
             nominal_load,
             edge_tolerance: 1e-5,
             layouts: None,

@@ -134,11 +134,12 @@ def packages(options, scenario):
 
 def rigid(scenario):
     """Says what rigid wheelsets leave out of the parameters of the wheels. Names are those of the FMU, if there is one."""
-    from .wheelset import LAW, FrictionLaw
+    from .wheelset import LAW, FrictionLaw, runs_straight
 
     if default_path().is_file():
         opened(default_path(), scenario)
     FrictionLaw.of(scenario.wheel | scenario.sweep.wheel)
+    runs_straight(scenario.wheel | scenario.sweep.wheel)
     ignored = [name for name in scenario.wheel | scenario.sweep.wheel if name not in LAW]
     if ignored:
         print(f"rigid wheelsets know {' and '.join(LAW)} only; without effect: {', '.join(ignored)}", file=sys.stderr)

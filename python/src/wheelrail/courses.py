@@ -26,7 +26,7 @@ MOST = 2000  # samples of a function in a step: noise has no end
 PIECES = 4  # in which a function is asked at least
 CLOSE = 1e-4  # share of its range in a step by which a function may be off a straight piece
 HEIGHT, RATE = "rail.elevation", "rail.elevation_rate"
-MOTIONS = ("drive.omega", "drive.velocity", "drive.displacement", HEIGHT, RATE)
+MOTIONS = ("drive.omega", "drive.velocity", "drive.displacement", "drive.lateral_velocity", HEIGHT, RATE)
 
 
 class Constant:

@@ -186,7 +186,7 @@ class Wheel:
     def profile(self, quantity):
         """A profile as a list over its points.
 
-        Across the contact patch: `x` [m], positive ahead of the wheel centre, `pressure` [Pa], `shear` [Pa], `slip` [m/s],
+        Across the contact patch: `x` [m], positive ahead of the wheel centre, `pressure` [Pa], `shear` [Pa], `slip` [m/s], and across `shear_z`, `slip_z`,
         `temperature_wheel` and `temperature_rail` [K] of the surfaces. Below the surface: `depth` [m],
         `temperature_wheel_below` and `temperature_rail_below` [K] under the contact point, `temperature_tread_below` [K] under
         the point of the tread at `thermal.tread_point`, `peak_temperature` [K] so far of the places that were heated in one

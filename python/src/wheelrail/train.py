@@ -23,7 +23,7 @@ from .team import Team
 from .values import Refused
 from .vehicle import AXLES, GRAVITY, Coach
 from .warn import Once, collected
-from .wheelset import Drive, FmuWheelset, FrictionLaw, RigidWheelset
+from .wheelset import Drive, FmuWheelset, FrictionLaw, RigidWheelset, runs_straight
 
 ROLLING = 0.01  # slide below which a wheelset counts as rolling in the prediction
 STANDING = 0.02  # m/s, of a wheelset that does not turn: slower, or so slow that friction stops it soon, the rail holds it
@@ -149,6 +149,7 @@ def wheelsets_of(fmu, scenario, coach):
     inside = (scenario.fmu_coaches or range(1, coach.count + 1)) if fmu else ()
     if inside and parameters.get(SAVED):
         raise Refused(f"{SAVED} = {parameters[SAVED]!r}: all wheelsets of a train would save to that file; leave it out here")
+    runs_straight(parameters)
     law = FrictionLaw.of(parameters, fmu) if len(inside) < coach.count else None
     found, told = [], []
     for axle in range(coach.count * AXLES):

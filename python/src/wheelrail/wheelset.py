@@ -88,8 +88,16 @@ DOUBLED = (
 )  # fmt: skip
 
 
+def runs_straight(parameters):
+    """Refuses parameters of wheels with lateral creepage: the wheelsets of this module, in the FMU or rigid, run straight."""
+    aside = [name for name in parameters if name == "contact.lateral" and parameters[name] or ".lateral_" in name]
+    if aside:
+        raise Refused(f"{aside[0]}: wheelsets of a train run straight; leave it out, or give each wheel an FMU of its own (example 14)")
+
+
 def whole_wheelset(fmu, wheelset, parameters):
     """Parameters of one wheel made those of two on an axle that weigh and turn as given [kg, kg m2]."""
+    runs_straight(parameters)
     rim = parameters | {"wheel.radius": wheelset.radius, "wheel.hub_mass": 0.0, "wheel.hub_inertia": 0.0}
     # What is to be said of the parameters is said of the wheelset.
     with collected(), Wheel(fmu, rim) as one:

@@ -141,6 +141,7 @@ fn add_line(axis: Axis, line: &ContactLine, forces: &mut [f64], constant: &mut f
                 forces[port + 1] -= line.slopes().rail(i);
             }
             Axis::Height => forces[port + 1] -= 1.0,
+            Axis::Lateral => {}
             Axis::Rotation => {
                 let [arm_t, arm_n] = line.lever_arms(i);
                 forces[port] += arm_t;

@@ -83,6 +83,9 @@ impl ContactSolver for ActiveSetSolver {
         if !problem.lines.iter().all(fits) || [start.len(), found.len()] != [problem.lines.len(); 2] {
             return Err(ContactError::ForeignState);
         }
+        if problem.is_sideways() {
+            return Err(ContactError::Sideways { reason: "the contact is looked for on fixed nodes" });
+        }
         let begun = start.iter().zip(found).map(|(start, found)| begin(start, found));
         let starts = begun.collect::<Result<Vec<_>, _>>()?;
         ActiveSet::new(&self.grid, problem, starts, &mut scratch.active_set).run()

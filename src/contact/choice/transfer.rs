@@ -41,7 +41,7 @@ pub(super) fn to_grid(
     let (SolverState::Series(patch), SolverState::Grid(state)) = (&from.solver, &mut target.solver) else {
         return None;
     };
-    let Tractions { pressure, slide, stick, directions } = &patch.tractions;
+    let Tractions { pressure, slide, stick, directions, .. } = &patch.tractions;
     let ([low, high], [stick_low, stick_high]) = (pressure.ends(), stick.ends());
     let slips = |sign: f64| if sign < 0.0 { NodeStatus::SlipBackward } else { NodeStatus::SlipForward };
     let status = |x: f64| match directions {
@@ -133,7 +133,7 @@ fn on_points(
     let directions = x.map(|x| state.status[next(x)].friction_direction() as i8);
     let terms = constants.of_points.terms_of(&x.map(|x| from.traction.shear.at(x)), upstream);
     let stick = Arch { count: TERMS, terms: std::array::from_fn(|k| terms[k]), ..pressure };
-    Tractions { pressure, slide: 0.0, stick, directions: Some(directions) }
+    Tractions { pressure, slide: 0.0, stick, directions: Some(directions), lateral: Arch::default() }
 }
 
 /// Nodes in the middle of a grid that have one spacing; those of a wide grid grow apart outside of them.
@@ -168,7 +168,7 @@ pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &Contac
             if share > 0.0 {
                 (stick.half_width, stick.centre) = (share * half_width, centre + side * (1.0 - share) * half_width);
             }
-            Tractions { pressure, slide: direction * traction.friction.coefficient, stick, directions: None }
+            Tractions { pressure, slide: direction * traction.friction.coefficient, stick, directions: None, lateral: Arch::default() }
         }
         None => on_points(constants, grid, from, state, pressure),
     };

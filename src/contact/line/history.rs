@@ -52,6 +52,11 @@ impl FrictionHistory {
         [power, work]
     }
 
+    /// Makes room for friction at `n` places, of which further ones have had none.
+    pub fn reach(&mut self, n: usize) {
+        [&mut self.force, &mut self.impulse, &mut self.slip].into_iter().for_each(|values| values.resize(n, 0.0));
+    }
+
     /// Takes away all slip: the state of a wheel at rest.
     pub fn rest(&mut self) {
         self.slip.fill(0.0);

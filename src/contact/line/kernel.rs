@@ -53,7 +53,8 @@ mod tests {
     #[test]
     fn a_line_is_displaced_as_the_half_plane_far_from_its_force_and_by_the_discrete_kernel_beside_it() {
         let along = |factor: f64| Logarithm { factor, reach: 0.03_f64.ln() };
-        let kernel = LineKernel { tangential: along(2.0), normal: along(1.0), coupling: 0.0 };
+        let kernel =
+            LineKernel { tangential: along(2.0), normal: along(1.0), lateral: Logarithm::default(), coupling: 0.0 };
         let h = 1e-4;
         let nodes: Vec<f64> = (0..200).map(|i| h * f64::from(i)).collect();
         let matrix = line_compliance(&kernel, &logarithms(&nodes, h));
@@ -71,7 +72,7 @@ mod tests {
     fn nodes_of_growing_distance_are_displaced_as_the_half_plane_under_a_pressure() {
         let (h, reach) = (1e-4, 0.03_f64);
         let along = Logarithm { factor: 1.0, reach: reach.ln() };
-        let kernel = LineKernel { tangential: along, normal: along, coupling: 0.0 };
+        let kernel = LineKernel { tangential: along, normal: along, lateral: Logarithm::default(), coupling: 0.0 };
         let mut half = vec![0.0];
         for k in 0..90 {
             let last = half[half.len() - 1];

@@ -53,8 +53,9 @@ pub struct Constants {
     pub points: Lagrange,
     /// Constants of the series.
     pub tables: Tables,
-    /// Constants of points.
+    /// Constants of points, and of points that slip where their tractions stand.
     pub of_points: PointTables,
+    pub in_place: PointTables,
     /// Constants of hot layers.
     pub layers: LayerTables,
 }
@@ -62,6 +63,12 @@ pub struct Constants {
 impl Constants {
     /// Those of smooth displacements that are polynomials through `points`.
     pub fn new(points: Lagrange) -> Self {
-        Self { points, tables: Tables::new(), of_points: PointTables::new(), layers: LayerTables::new() }
+        Self {
+            points,
+            tables: Tables::new(),
+            of_points: PointTables::new(),
+            in_place: PointTables::upstream_by(0.0),
+            layers: LayerTables::new(),
+        }
     }
 }

@@ -11,16 +11,16 @@ pub type Coefficients = [f64; ROOM];
 /// Solves `count` equations with several right-hand sides by elimination with the largest pivot of each column; every
 /// row is scaled first. `columns` has the coefficients of every unknown and behind them the right-hand sides, which
 /// become the solutions. Returns false for singular equations.
-pub fn eliminate(columns: &mut [Coefficients], count: usize) -> bool {
+pub fn eliminate<const R: usize>(columns: &mut [[f64; R]], count: usize) -> bool {
     solve(columns, count)
 }
 
 vectorised! {
     /// See [`eliminate`].
-    fn solve<'a, S>(_simd, columns: &'a mut [Coefficients], count: usize) -> bool {
-        let mut scale = [0.0_f64; ROOM];
+    fn solve<'a, S, const R: usize>(_simd, columns: &'a mut [[f64; R]], count: usize) -> bool {
+        let mut scale = [0.0_f64; R];
         for column in &columns[..count] {
-            for i in 0..ROOM {
+            for i in 0..R {
                 scale[i] = scale[i].max(column[i].abs());
             }
         }
@@ -28,12 +28,12 @@ vectorised! {
             *scale = if *scale > 0.0 { 1.0 / *scale } else { 0.0 };
         }
         for column in columns.iter_mut() {
-            for i in 0..ROOM {
+            for i in 0..R {
                 column[i] *= scale[i];
             }
         }
         // Rows stay where they are: no part of a register moves. Those that have been pivots have the factor zero.
-        let (mut pivots, mut open) = ([0; ROOM], [0.0; ROOM]);
+        let (mut pivots, mut open) = ([0; R], [0.0; R]);
         open[..count].fill(1.0);
         for k in 0..count {
             let (mut best, mut most) = (0, -1.0);
@@ -48,12 +48,12 @@ vectorised! {
             }
             (pivots[k], open[best]) = (best, 0.0);
             let (mut factors, over) = (columns[k], 1.0 / columns[k][best]);
-            for i in 0..ROOM {
+            for i in 0..R {
                 factors[i] *= open[i] * over;
             }
             for column in &mut columns[k + 1..] {
                 let pivot = column[best];
-                for i in 0..ROOM {
+                for i in 0..R {
                     column[i] -= factors[i] * pivot;
                 }
             }
@@ -61,11 +61,11 @@ vectorised! {
         let (unknowns, right) = columns.split_at_mut(count);
         let mut finite = true;
         for right in right {
-            let mut x = [0.0; ROOM];
+            let mut x = [0.0; R];
             for k in (0..count).rev() {
                 let known = right[pivots[k]] / unknowns[k][pivots[k]];
                 x[k] = known;
-                for i in 0..ROOM {
+                for i in 0..R {
                     right[i] -= unknowns[k][i] * known;
                 }
             }

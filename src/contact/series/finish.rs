@@ -3,7 +3,7 @@
 use super::hot_layers::SeriesLayers;
 use super::places::{AtPlaces, total};
 use super::series_line::SeriesLine;
-use super::state::{Past, PatchPast, SeriesState, Tractions};
+use super::state::{AcrossPast, Past, PatchPast, SeriesState, Tractions};
 use super::surface::{less, plus};
 use super::tables::{POWER, PROFILE};
 use crate::contact::flexibility::ByPowers;
@@ -31,7 +31,18 @@ fn energy(line: &SeriesLine) -> f64 {
     let pulling =
         tangential.factor * (slide * slide * pressed + stuck - tangential.reach * line.friction_force().powi(2));
     let by_lines: f64 = line.powers[1].iter().zip(&line.field.displacement).map(|(moment, c)| 0.5 * moment * c).sum();
-    along + lift + by_lines - (pressing + pulling)
+    along + lift + by_lines + energy_across(line) - (pressing + pulling)
+}
+
+/// Elastic energy of the shear across [J/m].
+fn energy_across(line: &SeriesLine) -> f64 {
+    let (shear, kernel) = (&line.tractions.lateral, line.problem.line.kernel.lateral);
+    if !line.is_sideways() {
+        return 0.0;
+    }
+    let (places, force) = line.slipping_across();
+    let own = kernel.factor * (kernel.reach * shear.total().powi(2) - total(&force, &shear.logarithm(&places)));
+    own + line.across.powers.iter().zip(&line.across.field.displacement).map(|(moment, c)| 0.5 * moment * c).sum::<f64>()
 }
 
 /// Power of pressure on the slope of the rail that slides past it [W/m].
@@ -78,7 +89,7 @@ fn expansion(line: &SeriesLine) -> f64 {
 /// Moves the histories on and takes the power: that of friction at the end of the step [W/m] and its energy in the step
 /// [J/m].
 fn remember(
-    (line, growth): (&SeriesLine, ByPowers),
+    (line, [growth, growth_across]): (&SeriesLine, [ByPowers; 2]),
     force: &[f64; POWER],
     state: &mut SeriesState,
     history: &mut LineHistory,
@@ -92,6 +103,10 @@ fn remember(
         half_length: line.half_length,
         reach: line.problem.line.kernel.tangential.reach,
         share: line.problem.line.share,
+        across: AcrossPast {
+            field: [line.across.field.displacement, growth_across],
+            kernel: line.problem.line.kernel.lateral,
+        },
     });
     match time.is_stationary() {
         true => {
@@ -105,13 +120,21 @@ fn remember(
     }
     state.past[0] = now;
     state.slope = line.slope;
-    history.friction.advance(time, slope_power(line), |q| [force[q], line.slips[q]])
+    if !line.is_sideways() {
+        return history.friction.advance(time, slope_power(line), |q| [force[q], line.slips[q]]);
+    }
+    let (_, across) = line.slipping_across();
+    history.friction.reach(2 * POWER);
+    history.friction.advance(time, slope_power(line), |q| match q.checked_sub(POWER) {
+        None => [force[q], line.slips[q]],
+        Some(q) => [across[q], line.across.slips[q]],
+    })
 }
 
 /// Writes the traction, the history and the memory, for which `growth` is the change of the displacement by the lines
 /// of the patch with the size of this one; returns the elastic energy of the line's own flexibility [J/m].
 pub(super) fn finish(
-    (line, growth): (&SeriesLine, ByPowers),
+    (line, growth): (&SeriesLine, [ByPowers; 2]),
     state: &mut SeriesState,
     history: &mut LineHistory,
     traction: &mut Traction,
@@ -121,6 +144,8 @@ pub(super) fn finish(
     traction.friction.coefficient = line.friction;
     let power = traction.friction.dissipate(friction, work, line.problem.line.duration);
     traction.friction.tread_slip = line.tread_slip();
+    traction.friction.slip_speed = line.slip_speed();
+    traction.spin_moment = if line.is_sideways() { line.spin_moment() } else { 0.0 };
     traction.rigid = line.rigid;
     traction.resultant = line.resultant();
     write_ports(line, traction);
@@ -160,6 +185,24 @@ fn write_ports(line: &SeriesLine, traction: &mut Traction) {
     }
 }
 
+/// Profiles of shear and slip across at the places of those along, whose dissipation they add to.
+fn write_lateral_profiles(line: &SeriesLine, traction: &mut Traction) {
+    let Traction { lateral_shear, lateral_slip, shear, friction: SolvedFriction { dissipation, .. }, .. } = traction;
+    [&mut *lateral_shear, lateral_slip].into_iter().for_each(Piecewise::clear);
+    if !line.is_sideways() {
+        return;
+    }
+    let last = shear.x.len().saturating_sub(1);
+    for (i, &x) in shear.x.iter().enumerate() {
+        let ([q], [s]) = (line.tractions.lateral.density(&[x]), line.lateral_slip(&[x], true));
+        let ends = i == 0 || i == last;
+        let (q, s) = if ends { (0.0, 0.0) } else { (q, s) };
+        lateral_shear.push(x, q);
+        lateral_slip.push(x, s);
+        dissipation.value[i] = (dissipation.value[i] - q * s).max(0.0);
+    }
+}
+
 fn write_profiles(line: &SeriesLine, traction: &mut Traction) {
     let Traction { pressure, shear, slip, friction: SolvedFriction { dissipation, .. }, .. } = traction;
     [&mut *pressure, shear, slip, dissipation].into_iter().for_each(Piecewise::clear);
@@ -180,8 +223,10 @@ fn write_profiles(line: &SeriesLine, traction: &mut Traction) {
             pressure.push(x, p[i]);
             shear.push(x, q[i]);
             slip.push(x, s[i]);
-            dissipation.push(x, (-q[i] * s[i]).max(0.0));
+            let heat = -q[i] * s[i];
+            dissipation.push(x, if line.is_sideways() { heat } else { heat.max(0.0) });
         }
     }
     traction.pressure_max = line.tractions.pressure.peak();
+    write_lateral_profiles(line, traction);
 }

@@ -1,6 +1,7 @@
 //! Laws with several branches around the search for stick: brakes that slip or hold, and friction that depends on the
 //! slip.
 
+use super::cone_search;
 use super::constants::Constants;
 use super::contact::{Relaid, SeriesContact};
 use super::hot_layers::SeriesLayers;
@@ -37,7 +38,8 @@ pub fn solve<R>(
     for _ in 0..MOST_STATES {
         let rigid = brake::driven(&problem.rigid, states);
         let memory: [_; MOST_LAYOUTS] = std::array::from_fn(|_| OnceCell::new());
-        let line = |(line, start)| SeriesLine::new(constants, OneLine { line, rigid: &rigid }, start);
+        let line =
+            |(line, start)| SeriesLine::new(constants, OneLine { line, rigid: &rigid, spin: problem.spin }, start);
         let lines = problem.lines.iter().zip(starts).map(line).collect();
         let mut contact = SeriesContact::new(lines, &rigid, Relaid { problem, memory: &memory });
         check_layers(&contact)?;
@@ -89,7 +91,8 @@ fn next(contact: &SeriesContact, problem: &ContactProblem, states: PerAxis<Brake
 
 /// Finds tractions and motions, and the friction coefficients that the laws of all lines give to their slips.
 fn find(contact: &mut SeriesContact) -> Result<(), ContactError> {
-    pivoting::solve(contact)?;
+    let solve = if contact.lines[0].is_sideways() { cone_search::solve } else { pivoting::solve };
+    solve(contact)?;
     if !contact.lines.iter().any(|line| line.problem.line.friction.varies()) {
         return Ok(());
     }
@@ -100,7 +103,7 @@ fn find(contact: &mut SeriesContact) -> Result<(), ContactError> {
     for _ in 0..MOST_COEFFICIENTS {
         let mut settled = true;
         for (line, search) in contact.lines.iter_mut().zip(&mut searches) {
-            let found = line.problem.line.friction.coefficient(line.tread_slip());
+            let found = line.problem.line.friction.coefficient(line.slip_speed());
             if let Some(next) = search.as_mut().and_then(|search| search.next(line.friction, found)) {
                 (line.friction, settled) = (next, false);
             }
@@ -108,7 +111,7 @@ fn find(contact: &mut SeriesContact) -> Result<(), ContactError> {
         if settled {
             return Ok(());
         }
-        pivoting::solve(contact)?;
+        solve(contact)?;
     }
     Err(ContactError::Unsuited { reason: "no friction coefficient belongs to its slip" })
 }

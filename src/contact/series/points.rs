@@ -33,10 +33,16 @@ pub struct PointTables {
 }
 
 impl PointTables {
-    /// All constants.
+    /// All constants, with slips half a point upstream.
     pub fn new() -> Self {
+        Self::upstream_by(0.5)
+    }
+
+    /// All constants, with slips a `part` of a point upstream of the tractions.
+    pub fn upstream_by(part: f64) -> Self {
+        let ahead = 1.0 - part;
         let part = PI / (COUNT + 1) as f64;
-        let slips = std::array::from_fn(|i| libm::cos((i as f64 + 0.5) * part));
+        let slips = std::array::from_fn(|i| libm::cos((i as f64 + ahead) * part));
         let term = |k: usize, j: usize| 2.0 / (COUNT + 1) as f64 * libm::sin((k + 1) as f64 * (j + 1) as f64 * part);
         let terms: [[f64; COUNT]; COUNT] = std::array::from_fn(|k| std::array::from_fn(|j| term(k, j)));
         let by_point = |of: fn(f64, usize) -> [f64; TERMS]| {

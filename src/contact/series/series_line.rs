@@ -2,8 +2,9 @@
 
 use super::chebyshev::Arch;
 use super::constants::Constants;
+use super::across::Across;
 use super::hot_layers::{self, SeriesLayers};
-use super::places::{Places, lifts, place, total, turns};
+use super::places::{AtPlaces, Places, lifts, place, total, turns};
 use super::state::{SeriesState, Tractions};
 use super::surface::{AtPoints, Moments, SmoothSurfaces, plus};
 use super::tables::{POWER, QUADRATURE};
@@ -50,8 +51,9 @@ pub struct SeriesLine<'a> {
     pub slope: f64,
     /// Rim angle \[rad].
     pub rim_angle: f64,
-    /// Friction coefficient \[1].
+    /// Friction coefficient \[1], and that of the step before.
     pub friction: f64,
+    pub before_friction: f64,
     /// Places of the pressure.
     pub pressed: Places,
     /// Places of the shear of [`Tractions::stick`].
@@ -68,6 +70,8 @@ pub struct SeriesLine<'a> {
     pub powers: [ByPowers; 2],
     /// Effect of the lines of the patch under their present shear.
     pub field: Field,
+    /// What belongs to the lateral direction.
+    pub across: Across,
     /// Slip at the places of [`Self::slipping`] [m/s], once the solution has been checked.
     pub slips: [f64; POWER],
 }
@@ -92,7 +96,8 @@ impl<'a> SeriesLine<'a> {
             begun: (tractions, rigid),
             slope: before.slope,
             rim_angle: history.rim_angle.now,
-            friction: problem.line.friction.coefficient(traction.friction.tread_slip),
+            friction: problem.line.friction.coefficient(traction.friction.slip_speed),
+            before_friction: traction.friction.coefficient,
             pressed: Places::default(),
             stuck: Places::default(),
             mean_load: 0.0,
@@ -101,6 +106,7 @@ impl<'a> SeriesLine<'a> {
             half_length: problem.line.patch.map_or(before.tractions.pressure.half_width, |patch| patch.half_length),
             powers: Default::default(),
             field: Field::default(),
+            across: Across::default(),
             slips: [0.0; POWER],
         }
     }
@@ -239,7 +245,7 @@ impl<'a> SeriesLine<'a> {
         let tangential = self.friction_force();
         let middle = total(&self.pressed.force, &self.pressed.x);
         let rotation = self.lifted() - self.problem.line.radius() * tangential - middle;
-        PerAxis { travel: tangential, height: self.load(), rotation }
+        PerAxis { travel: tangential, height: self.load(), rotation, lateral: self.tractions.lateral.total() }
     }
 
     /// Part of the moment that the deformation of the wheel changes \[N]. Lever arms are those of the deformed wheel
@@ -279,9 +285,18 @@ impl<'a> SeriesLine<'a> {
         (places, std::array::from_fn(force))
     }
 
+    /// Mean of a quantity at the places of the pressure, weighted with it.
+    pub fn mean_under_pressure(&self, values: &AtPlaces) -> f64 {
+        let load = self.load();
+        if load > 0.0 { total(&self.pressed.force, values) / load } else { 0.0 }
+    }
+
     /// Mean slip over the pressure [m/s], once the solution has been checked.
     pub fn tread_slip(&self) -> f64 {
         let slide = self.tractions.slide;
+        if self.is_sideways() {
+            return self.mean_under_pressure(&self.slips);
+        }
         if slide != 0.0 {
             let (_, force) = self.slipping();
             return force.iter().zip(&self.slips).map(|(f, s)| f * s).sum::<f64>() / (slide * self.load());

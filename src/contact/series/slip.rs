@@ -20,7 +20,7 @@ impl SeriesLine<'_> {
         let SmoothSurfaces { wheel, rail } = surface;
         let carried: AtPoints = std::array::from_fn(|k| v * rail.tangential[k] - rim * wheel.tangential[k]);
         let carried = points.polynomial(&carried);
-        let rigid = v - self.problem.line.radius() * self.rigid.rotation;
+        let rigid = v - self.problem.line.radius() * self.rigid.rotation - self.spin() * self.problem.line.position;
         let warm = self.warm(x, |layers, x| layers.stretch(x, [-rim, v]));
         let by_lines = match self.problem.line.patch {
             Some(_) => values(&self.field.slip(self.slip_of_field()), x, self.half_length),

@@ -11,7 +11,7 @@ use super::{finish, laws};
 use crate::axes::PerAxis;
 use crate::contact::error::ContactError;
 use crate::contact::line::LineHistory;
-use crate::contact::problem::{ContactProblem, LineProblem, OneLine, RigidMotion};
+use crate::contact::problem::{ContactProblem, LineProblem, OneLine, RigidMotion, Spin};
 use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::{Lagrange, POINTS};
@@ -57,17 +57,23 @@ impl SeriesSolver {
     /// Refuses problems in which a patch is not smooth, or whose past the series cannot carry.
     fn check(line: &LineProblem) -> Result<(), ContactError> {
         let (surfaces, placement, limits) = (line.surfaces, &line.placement, &line.limits);
-        let refuse = |reason: &'static str| Err(ContactError::Unsuited { reason });
+        let refuse = |reason: &'static str, sideways: &'static str| match line.is_sideways() {
+            false => Err(ContactError::Unsuited { reason }),
+            true => Err(ContactError::Sideways { reason: sideways }),
+        };
         if !surfaces.is_smooth() {
-            return refuse("the surfaces have profiles");
+            return refuse("the surfaces have profiles", "the surfaces have profiles (wheel.profile, rail.profile)");
         }
         if surfaces.is_uneven(placement) {
-            return refuse("the surfaces are flattened");
+            return refuse("the surfaces are flattened", "the surfaces are flattened (physics.yielding, physics.wear)");
         }
         if !limits.film.is_empty() {
-            return refuse("a surface melts");
+            return refuse("a surface melts", "a surface melts (physics.melting)");
         }
-        if line.time.b1 != 0.0 { refuse("the time formula remembers rates") } else { Ok(()) }
+        match line.time.b1 != 0.0 {
+            true => refuse("the time formula remembers rates", "the time formula remembers rates"),
+            false => Ok(()),
+        }
     }
 
     /// Refuses a line that sticks somewhere while the material hardly moves.
@@ -77,6 +83,9 @@ impl SeriesSolver {
         tractions: &Tractions,
         before: &SeriesState,
     ) -> Result<(), ContactError> {
+        if line.is_sideways() {
+            return Ok(());
+        }
         let slow = Self::hardly_moves(rigid, line, SHORTEST_WAY * before.tractions.pressure.half_width);
         match slow && !tractions.slides() {
             true => Err(ContactError::Unsuited { reason: "the material hardly moves" }),
@@ -95,7 +104,7 @@ impl SeriesSolver {
         let [edges] = traction.edges.as_slice() else { return false };
         let half_width = edges.half_length();
         let patch = Arch { centre: edges.middle(), half_width, ..Arch::default() };
-        let view = OneLine { line: problem, rigid };
+        let view = OneLine { line: problem, rigid, spin: Spin::default() };
         let bends = |layers: &SeriesLayers| laws::bends(layers, &view, half_width, 0.5 * laws::UNRESOLVED);
         Self::check(problem).is_ok()
             && Self::check_limits(problem, traction).is_ok()
@@ -112,7 +121,11 @@ impl SeriesSolver {
         let pressure = &traction.pressure;
         let any = limits.is_limited()
             && (traction.pressure_max > bears(0.0) || pressure.x.iter().zip(&pressure.value).any(yields));
-        if any { Err(ContactError::Unsuited { reason: "steel yields" }) } else { Ok(()) }
+        match (any, line.is_sideways()) {
+            (false, _) => Ok(()),
+            (true, false) => Err(ContactError::Unsuited { reason: "steel yields" }),
+            (true, true) => Err(ContactError::Sideways { reason: "steel yields (physics.yielding)" }),
+        }
     }
 }
 
@@ -123,7 +136,7 @@ impl ContactSolver for SeriesSolver {
         // That of a cylinder is found in the first iteration.
         pressure.terms[0] = 1.0;
         let stick = Arch { terms: Default::default(), ..pressure };
-        let tractions = Tractions { pressure, slide: 1.0, stick, directions: None };
+        let tractions = Tractions { pressure, slide: 1.0, stick, directions: None, lateral: Arch::default() };
         let past = [(); 2].map(|()| Past::Patch(PatchPast::default()));
         let state = SeriesState { tractions, past, ..SeriesState::default() };
         let zeros = || DVector::zeros(2 * POINTS);
@@ -187,7 +200,7 @@ impl ContactSolver for SeriesSolver {
             && arches.iter().all(|arch| arch.is_sound())
             && series.past.iter().all(Past::is_sound)
             && series.kernel.is_sound()
-            && state.history.friction.fits(POWER)
+            && (state.history.friction.fits(POWER) || state.history.friction.fits(2 * POWER))
             && vectors.into_iter().all(|values| values.len() == 2 * POINTS)
             && traction.port_forces.iter().all(|f| f.is_finite())
     }

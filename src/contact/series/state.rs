@@ -3,7 +3,7 @@
 use super::chebyshev::{Arch, logarithm_of_both};
 use super::points::Directions;
 use crate::contact::flexibility::{ByPowers, at, powers, values};
-use crate::contact::kernel::LineKernel;
+use crate::contact::kernel::{LineKernel, Logarithm};
 use crate::linalg::{Lagrange, POINTS};
 use crate::multistep::TimeDerivative;
 use serde::{Deserialize, Serialize};
@@ -24,6 +24,8 @@ pub struct Tractions {
     pub stick: Arch,
     /// States of the points where slip is not one stretch in one direction: `stick` is all of the shear then, `slide` zero.
     pub directions: Option<Directions>,
+    /// Shear across \[Pa]; it has no length where there is none.
+    pub lateral: Arch,
 }
 
 // A run on a patch keeps the larger variant, without memory to allocate in every step.
@@ -52,19 +54,35 @@ pub struct PatchPast {
     pub reach: f64,
     /// Share of the line in the width of the bodies \[1].
     pub share: f64,
+    /// Displacement across.
+    pub across: AcrossPast,
+}
+
+/// Displacement across by all lines of the patch as [`PatchPast::field`], and the line's own flexibility across.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AcrossPast {
+    pub field: [ByPowers; 2],
+    pub kernel: Logarithm,
 }
 
 impl Default for PatchPast {
     fn default() -> Self {
-        let (tractions, smooth, field) = Default::default();
-        Self { tractions, smooth, field, half_length: 1.0, reach: 0.0, share: 0.0 }
+        let (tractions, smooth, field, across) = Default::default();
+        Self { tractions, smooth, field, half_length: 1.0, reach: 0.0, share: 0.0, across }
     }
 }
 
 impl PatchPast {
+    /// Displacement across at x \[m], carried on by a line with the given share of the width.
+    pub fn across<const N: usize>(&self, x: &[f64; N], share: f64) -> [f64; N] {
+        let (carried, AcrossPast { field, kernel }) = (self.carried(share), self.across);
+        let (by_lines, shear) = (self.by_lines(&field, carried, x), &self.tractions.lateral);
+        let (own, total) = (shear.logarithm(x), kernel.reach * shear.total());
+        std::array::from_fn(|i| by_lines[i] + 2.0 * carried * kernel.factor * (total - own[i]))
+    }
+
     /// Displacement by the lines of the patch, carried on with a factor \[m].
-    fn by_lines<const N: usize>(&self, carried: f64, x: &[f64; N]) -> [f64; N] {
-        let [field, growth] = &self.field;
+    fn by_lines<const N: usize>(&self, [field, growth]: &[ByPowers; 2], carried: f64, x: &[f64; N]) -> [f64; N] {
         let sum: ByPowers = std::array::from_fn(|k| field[k] + 2.0 * (1.0 - carried) * growth[k]);
         match x.iter().all(|x| x.abs() <= self.half_length) {
             true => values(&sum, x, self.half_length),
@@ -174,10 +192,13 @@ impl Past {
     /// True if all numbers are finite and in range.
     pub fn is_sound(&self) -> bool {
         match self {
-            Past::Patch(PatchPast { tractions, smooth, field, half_length, reach, share }) => {
+            Past::Patch(PatchPast { tractions, smooth, field, half_length, reach, share, across }) => {
                 *half_length > 0.0
                     && half_length.is_finite()
-                    && field.as_flattened().iter().all(|c| c.is_finite())
+                    && field.iter().chain(&across.field).all(|by| by.iter().all(|c| c.is_finite()))
+                    && across.kernel.factor.is_finite()
+                    && across.kernel.reach.is_finite()
+                    && tractions.lateral.is_sound()
                     && reach.is_finite()
                     && share.is_finite()
                     && tractions.pressure.is_sound()
@@ -196,7 +217,7 @@ impl Past {
         match self {
             Past::Patch(past) => {
                 let carried = share.map_or(1.0, |share| past.carried(share));
-                let by_lines = past.by_lines(carried, x);
+                let by_lines = past.by_lines(&past.field, carried, x);
                 let (smooth, logarithm) = (points.polynomial(&past.smooth), past.tractions.shear_logarithm(x));
                 let own = (carried - 1.0) * 2.0 * kernel * past.reach * past.tractions.total();
                 std::array::from_fn(|i| smooth.at(x[i]) + by_lines[i] + own - 2.0 * carried * kernel * logarithm[i])

@@ -43,48 +43,95 @@ impl SeriesContact<'_> {
         if self.free_axes().next().is_none() {
             return Ok(());
         }
-        self.share(&[])?;
+        self.share::<POINTS, Stretch>(&[])?;
         self.displace();
         Ok(())
+    }
+}
+
+/// Shear of a line as an answer to its slip by all that the known slip does not contain, which is D coefficients of
+/// polynomials: linear but for the shear under the known slip.
+pub trait Answer<const D: usize> {
+    /// Moments [N/m] of the shear under the known slip with the powers that belong to these coefficients, and those that a
+    /// unit of each coefficient takes away.
+    fn moments(&self) -> ([f64; D], [[f64; D]; D]);
+
+    /// Forces [N/m] along and across under the known slip, and those that a unit of each coefficient takes away.
+    fn forces(&self) -> ([f64; 2], [[f64; 2]; D]);
+
+    /// Slips of a line by unit moments of the shear of another one.
+    fn between(contact: &SeriesContact, lines: [usize; 2]) -> [[f64; D]; D];
+
+    /// Slip of a line by a unit of a motion.
+    fn by_motion(line: &SeriesLine, axis: Axis) -> [f64; D];
+
+    /// Moments with powers along of given moments.
+    fn along(moments: &[f64; D]) -> ByPowers;
+}
+
+impl Answer<POINTS> for Stretch {
+    fn moments(&self) -> (ByPowers, ByMoments) {
+        let [known, by @ ..] = self.moments();
+        (known, by)
+    }
+
+    fn forces(&self) -> ([f64; 2], [[f64; 2]; POINTS]) {
+        let [known, by @ ..] = self.forces().map(|force| [force, 0.0]);
+        (known, by)
+    }
+
+    fn between(contact: &SeriesContact, lines: [usize; 2]) -> ByMoments {
+        contact.slips_between(lines)
+    }
+
+    fn by_motion(line: &SeriesLine, axis: Axis) -> ByPowers {
+        line.slip_by_motion(axis)
+    }
+
+    fn along(moments: &ByPowers) -> ByPowers {
+        *moments
     }
 }
 
 impl SeriesContact<'_> {
     /// Finds the motions that are not prescribed, and the slips of all lines that stick by all that the known slip does
     /// not contain, as polynomials.
-    pub fn share(&mut self, stretches: &[Option<Stretch>]) -> Result<[ByPowers; MOST_LINES], ContactError> {
-        let (count, axes) = (POINTS * sticking(stretches).count(), self.free_axes());
+    pub fn share<const D: usize, A: Answer<D>>(
+        &mut self,
+        stretches: &[Option<A>],
+    ) -> Result<[[f64; D]; MOST_LINES], ContactError> {
+        let (count, axes) = (D * sticking(stretches).count(), self.free_axes());
         let mut system = std::mem::take(&mut self.system);
         system.reset(count + axes.clone().count());
         self.write_motions(stretches, &mut system);
         for (column, (by, stretch)) in sticking(stretches).enumerate() {
-            let (moments, forces, share) = (stretch.moments(), stretch.forces(), self.lines[by].problem.line.share);
+            let ((known, moments), (force, forces)) = (stretch.moments(), stretch.forces());
             for (row, (at, _)) in sticking(stretches).enumerate() {
-                let between = self.slips_between([at, by]);
-                let slips = moments.map(|moments| polynomial(&between, &moments));
-                for p in 0..POINTS {
+                let between = A::between(self, [at, by]);
+                let (known, slips) =
+                    (polynomial(&between, &known), moments.map(|moments| polynomial(&between, &moments)));
+                for p in 0..D {
                     // The known tractions stand on the right, the others take away from them.
-                    let (coefficients, side) = system.row(POINTS * row + p);
-                    *side += slips[0][p];
-                    let coefficients = coefficients[POINTS * column..][..POINTS].iter_mut();
-                    coefficients.zip(&slips[1..]).for_each(|(value, slip)| *value += slip[p]);
+                    let (coefficients, side) = system.row(D * row + p);
+                    *side += known[p];
+                    let coefficients = coefficients[D * column..][..D].iter_mut();
+                    coefficients.zip(&slips).for_each(|(value, slip)| *value += slip[p]);
                 }
             }
             for (row, axis) in axes.clone().enumerate() {
                 let (coefficients, side) = system.row(count + row);
-                for (k, (moments, force)) in moments.iter().zip(forces).enumerate() {
-                    let ports = self.at_points(by, moments);
-                    let momentum =
-                        (0..POINTS).map(|l| self.bodies().momentum[(axis.number(), 2 * l)] * ports[l]).sum::<f64>();
-                    let value = self.lines[0].problem.line.sliding(axis) * share * force - momentum;
-                    if k == 0 { *side += value } else { coefficients[POINTS * column + k - 1] += value }
-                }
+                *side += self.pull(axis, by, force, &A::along(&known));
+                let coefficients = coefficients[D * column..][..D].iter_mut();
+                let by_slips = moments.iter().map(A::along).zip(forces);
+                coefficients.zip(by_slips).for_each(|(value, (moments, force))| {
+                    *value += self.pull(axis, by, force, &moments);
+                });
             }
         }
-        let mut slips = [ByPowers::default(); MOST_LINES];
+        let mut slips = [[0.0; D]; MOST_LINES];
         let solved = system.solve().map(|solution| {
             let (polynomials, changes) = solution.split_at(count);
-            let lines = sticking(stretches).zip(polynomials.as_chunks::<POINTS>().0);
+            let lines = sticking(stretches).zip(polynomials.as_chunks::<D>().0);
             lines.for_each(|((line, _), slip)| slips[line] = *slip);
             axes.zip(changes).for_each(|(axis, change)| self.speed_up(axis, *change));
         });
@@ -94,15 +141,15 @@ impl SeriesContact<'_> {
 
     /// Writes the effect of the motions on the slips of lines that stick, and the balances of the motions but for the
     /// stretches that stick.
-    fn write_motions(&self, stretches: &[Option<Stretch>], system: &mut DenseSystem) {
-        let count = POINTS * sticking(stretches).count();
+    fn write_motions<const D: usize, A: Answer<D>>(&self, stretches: &[Option<A>], system: &mut DenseSystem) {
+        let count = D * sticking(stretches).count();
         for (row, (line, _)) in sticking(stretches).enumerate() {
-            for p in 0..POINTS {
-                system.row(POINTS * row + p).0[POINTS * row + p] = 1.0;
+            for p in 0..D {
+                system.row(D * row + p).0[D * row + p] = 1.0;
             }
             for (column, axis) in self.free_axes().enumerate() {
-                let slip = self.lines[line].slip_by_motion(axis);
-                slip.iter().enumerate().for_each(|(p, slip)| system.row(POINTS * row + p).0[count + column] = -slip);
+                let slip = A::by_motion(&self.lines[line], axis);
+                slip.iter().enumerate().for_each(|(p, slip)| system.row(D * row + p).0[count + column] = -slip);
             }
         }
         // Of friction alone: the stretches have no shear yet.
@@ -113,6 +160,18 @@ impl SeriesContact<'_> {
             for (column, other) in self.free_axes().enumerate() {
                 coefficients[count + column] = self.inertia(axis, other) * self.rigid[other].gain;
             }
+        }
+    }
+
+    /// Part of a shear of a line in the balance of a motion \[N/m, N], given its forces along and across [N/m] and its
+    /// moments along with the powers of the places.
+    fn pull(&self, axis: Axis, line: usize, [along, across]: [f64; 2], moments: &ByPowers) -> f64 {
+        let (problem, ports) = (self.lines[line].problem.line, self.at_points(line, moments));
+        let momentum = (0..POINTS).map(|l| self.bodies().momentum[(axis.number(), 2 * l)] * ports[l]).sum::<f64>();
+        let sliding = self.lines[0].problem.line.sliding(axis);
+        match axis {
+            Axis::Lateral => problem.share * across,
+            Axis::Travel | Axis::Height | Axis::Rotation => sliding * problem.share * along - momentum,
         }
     }
 
@@ -130,7 +189,7 @@ impl SeriesContact<'_> {
     }
 
     /// Slips of a line by unit moments of the shear of another one, given what those do to the bodies.
-    fn slips_between(&self, [at, by]: [usize; 2]) -> ByMoments {
+    pub fn slips_between(&self, [at, by]: [usize; 2]) -> ByMoments {
         let (line, other, [wheel, rail]) = (&self.lines[at], &self.lines[by], &self.by_powers);
         let (v, rim, a0, reach) =
             (line.rigid.travel, line.rim_velocity(), line.problem.line.time.a0, line.constants.points.reach);
@@ -163,13 +222,13 @@ impl SeriesContact<'_> {
 }
 
 /// Lines of which a stretch sticks, by number.
-fn sticking(stretches: &[Option<Stretch>]) -> impl Iterator<Item = (usize, &Stretch)> {
+fn sticking<A>(stretches: &[Option<A>]) -> impl Iterator<Item = (usize, &A)> {
     stretches.iter().enumerate().filter_map(|(line, stretch)| Some((line, stretch.as_ref()?)))
 }
 
 impl SeriesLine<'_> {
     /// Change of the slip per unit of V or Ω as a polynomial, the small effect of the strains left out.
-    fn slip_by_motion(&self, axis: Axis) -> ByPowers {
+    pub fn slip_by_motion(&self, axis: Axis) -> ByPowers {
         let (bodies, rim) = (&self.problem.line.bodies, self.rim_velocity());
         let answer =
             self.constants.points.polynomial(&std::array::from_fn(|k| bodies.inertial[(2 * k, axis.number())]));

@@ -47,6 +47,12 @@ fn partner(name: &str, inputs: &Inputs) -> Option<[&'static str; 4]> {
         "drive.displacement" => {
             (!inputs.vertical.prescribes_motion(), ["control.vertical", "force", "drive.load", "displacement"])
         }
+        "drive.lateral_velocity" => {
+            (!inputs.lateral.prescribes_motion(), ["control.lateral", "force", "drive.lateral_force", "velocity"])
+        }
+        "drive.lateral_force" => {
+            (inputs.lateral.prescribes_motion(), ["control.lateral", "velocity", "drive.lateral_velocity", "force"])
+        }
         _ => return None,
     };
     chosen.0.then_some(chosen.1)
@@ -62,6 +68,8 @@ pub(super) fn is_reaction(row: &Variable, value: f64, outputs: &Outputs, inputs:
         "drive.load" => -outputs.hub_force_y - inputs.drive.load_change,
         "drive.load_change" => -outputs.hub_force_y - inputs.drive.load,
         "drive.displacement" => outputs.hub_height,
+        "drive.lateral_velocity" => outputs.wheel_lateral_velocity,
+        "drive.lateral_force" => outputs.hub_force_z,
         _ => return false,
     };
     (value - reaction).abs() <= COPIED * value.abs().max(reaction.abs())

@@ -3,7 +3,7 @@
 use crate::fmi::settings::SetValues;
 use crate::fmi::table::named;
 use crate::fmi::variable::{Kind, Value, Variable};
-use crate::simulation::{Inputs, Outputs, Rotation, Translation, Vertical};
+use crate::simulation::{Inputs, Lateral, Outputs, Rotation, Translation, Vertical};
 
 /// Notes in `bumpless` the present value of every quantity that is prescribed `next` and is not `now`; a reaction
 /// beyond its range as far as that goes.
@@ -20,10 +20,15 @@ pub(super) fn take_over(outputs: &Outputs, now: &Inputs, next: &Inputs, bumpless
         Vertical::Force => ("drive.load", -outputs.hub_force_y - now.drive.load_change),
         Vertical::Displacement => ("drive.displacement", outputs.hub_height),
     };
+    let lateral = match next.lateral {
+        Lateral::Velocity => ("drive.lateral_velocity", outputs.wheel_lateral_velocity),
+        Lateral::Force => ("drive.lateral_force", outputs.hub_force_z),
+    };
     for (switched, (name, present)) in [
         (now.rotation != next.rotation, rotation),
         (now.translation != next.translation, translation),
         (now.vertical != next.vertical, vertical),
+        (now.lateral != next.lateral, lateral),
     ] {
         if let (true, Some(Variable { reference, kind: Kind::Real { min, max, .. }, .. })) = (switched, named(name)) {
             bumpless.insert(*reference, Value::Real(present.clamp(*min, *max)));

@@ -1,11 +1,13 @@
 //! Conditions of a stationary state: the speeds that are given, and the one that is sought.
 
 use super::super::brake;
-use super::super::control::{Drive, Inputs, peripheral_velocity};
+use super::super::control::{Drive, Inputs};
+use super::super::creepages::peripheral_velocity;
 use super::super::error::StepError;
 use super::super::model::RollingModel;
+use super::super::sideways;
 use crate::axes::{Axis, PerAxis};
-use crate::contact::{AxisDrive, RigidMotion};
+use crate::contact::{AxisDrive, RigidMotion, Spin};
 
 /// Speed of both surfaces together below which the wheel stands [m/s].
 const AT_REST: f64 = 1e-9;
@@ -27,6 +29,8 @@ pub(super) struct Goal {
     /// The axis whose speed is sought while its balance of forces holds, travel or rotation; `None`: both speeds are
     /// given.
     pub sought: Option<Axis>,
+    /// True if the lateral velocity is sought under a given lateral force.
+    pub seeks_aside: bool,
     pub moving: bool,
 }
 
@@ -69,7 +73,8 @@ impl Goal {
             (Some(_), true) => None,
         };
         let sought = axis.filter(|_| initial.creepage.is_none() && drive.friction > 0.0);
-        let goal = Self { drive, drives, given, velocity, omega, creepage, sought, moving };
+        let seeks_aside = target(drives.lateral).is_none() && drive.friction > 0.0;
+        let goal = Self { drive, drives, given, velocity, omega, creepage, sought, seeks_aside, moving };
         goal.check(model, goal.trial(radius).speeds)?;
         Ok(goal)
     }
@@ -105,6 +110,19 @@ impl Goal {
         [self.drives.travel, self.drives.rotation].map(|drive| drive.loads().map(|[load, _]| load))
     }
 
+    /// Lateral velocity that is given [m/s]; zero where the force is.
+    pub fn aside(&self) -> f64 {
+        match self.drives.lateral {
+            AxisDrive::Prescribed { target } => target,
+            AxisDrive::Free { .. } | AxisDrive::Braked { .. } => 0.0,
+        }
+    }
+
+    /// Turning about the normal of the contact; none at rest.
+    pub fn spin(&self) -> Spin {
+        if self.moving { sideways::spin(&self.drive) } else { Spin::default() }
+    }
+
     /// V [m/s] and Ω [rad/s] of the state whose slip has the given speeds.
     pub fn actual(&self, speeds: [f64; 2]) -> [f64; 2] {
         if self.moving { speeds } else { [self.velocity, self.omega.unwrap_or(0.0)] }
@@ -118,25 +136,38 @@ impl Goal {
     /// remains in brackets is the small loss of rolling.
     pub fn accelerations(&self, inertia: PerAxis<f64>, speeds: [f64; 2], resultant: PerAxis<f64>) -> PerAxis<f64> {
         let [force, moment] = self.free_loads();
+        let own = |load: Option<f64>, axis: Axis| load.map_or(0.0, |load| (load + resultant[axis]) / inertia[axis]);
+        let aside = self.drives.lateral.loads().map(|[load, _]| load);
+        let lateral = if self.seeks_aside && resultant.height > 0.0 { 0.0 } else { own(aside, Axis::Lateral) };
+        let others = PerAxis { lateral, ..PerAxis::default() };
         if self.sought.is_none() || resultant.height <= 0.0 {
-            let own = |load: Option<f64>, axis: Axis| load.map_or(0.0, |load| (load + resultant[axis]) / inertia[axis]);
             let (travel, rotation) = (own(force, Axis::Travel), own(moment, Axis::Rotation));
-            return PerAxis { travel, rotation, ..PerAxis::default() };
+            return PerAxis { travel, rotation, ..others };
         }
-        let (Some(force), Some(moment)) = (force, moment) else { return PerAxis::default() };
+        let (Some(force), Some(moment)) = (force, moment) else { return others };
         let k = speeds[1] / speeds[0];
         let driving = force + resultant.travel + k * (moment + resultant.rotation);
         let travel = driving / (inertia.travel + k * k * inertia.rotation);
-        PerAxis { travel, rotation: k * travel, ..PerAxis::default() }
+        PerAxis { travel, rotation: k * travel, ..others }
     }
 
-    /// Tangential force [N/m] that the contact has to carry where a speed is sought.
+    /// Tangential force [N/m] that the contact has to carry where speeds are sought.
     pub fn tangential_force(&self, inertia: PerAxis<f64>, trial: &Trial) -> f64 {
+        let along = self.force_along(inertia, trial);
+        match self.drives.lateral.loads().filter(|_| self.seeks_aside) {
+            Some([aside, _]) if aside != 0.0 => libm::hypot(along, aside),
+            _ => along,
+        }
+    }
+
+    /// Force [N/m] along the direction of travel that it has to carry.
+    fn force_along(&self, inertia: PerAxis<f64>, trial: &Trial) -> f64 {
         let [force, moment] = self.free_loads();
         let needed = |load: Option<f64>, axis: Axis| inertia[axis] * trial.accelerations[axis] - load.unwrap_or(0.0);
         match self.sought {
+            None => 0.0,
             Some(Axis::Travel) => needed(force, Axis::Travel),
-            _ => -needed(moment, Axis::Rotation) * trial.speeds[1] / trial.speeds[0],
+            Some(_) => -needed(moment, Axis::Rotation) * trial.speeds[1] / trial.speeds[0],
         }
     }
 
@@ -147,19 +178,21 @@ impl Goal {
         let turning = if braked { "drive.moment less brake.torque" } else { "drive.moment" };
         let pulling = if self.drive.slope == 0.0 { "drive.force" } else { "drive.force on this rail.slope" };
         let parts = [(turning, moment, "N m"), (pulling, force, "N")];
-        let named =
-            parts.iter().filter_map(|(name, load, unit)| load.map(|load| format!("{name} = {} {unit}", load * width)));
+        let aside = self.drives.lateral.loads().map(|[load, _]| load).filter(|load| *load != 0.0);
+        let parts = parts.into_iter().chain([("drive.lateral_force", aside, "N")]);
+        let named = parts.filter_map(|(name, load, unit)| load.map(|load| format!("{name} = {} {unit}", load * width)));
         named.collect::<Vec<_>>().join(" and ")
     }
 
-    /// The rigid motions of the contact problem: unknown are the hub height, unless it is prescribed, and the speed of
-    /// the axis `sought`, whose acceleration is that of the trial whatever the speed.
+    /// The rigid motions of the contact problem: unknown are the hub height, unless it is prescribed, and, where `touching`
+    /// bodies hold them, the speed of the axis that is sought and the lateral one, whose accelerations are those of the
+    /// trial whatever the speed. The search begins with the motions `start`.
     pub fn motions(
         &self,
         model: &RollingModel,
         trial: &Trial,
-        sought: Option<Axis>,
-        height: f64,
+        touching: bool,
+        start: PerAxis<f64>,
         momentum: PerAxis<f64>,
     ) -> PerAxis<RigidMotion> {
         let free = |axis: Axis, drive: AxisDrive, guess: f64| RigidMotion {
@@ -170,15 +203,19 @@ impl Goal {
             inertia: model.wheel.inertia[axis],
             momentum: momentum[axis],
         };
-        let motion = |axis: Axis, speed: f64| match (sought == Some(axis), self.drives[axis]) {
+        let motion = |axis: Axis, speed: f64| match (touching && self.sought == Some(axis), self.drives[axis]) {
             (false, _) => RigidMotion::held(speed, trial.accelerations[axis]),
             (true, AxisDrive::Prescribed { .. }) => free(axis, AxisDrive::Free { load: 0.0 }, speed),
             (true, drive) => free(axis, drive, speed),
         };
         PerAxis {
             travel: motion(Axis::Travel, trial.speeds[0]),
-            height: free(Axis::Height, self.drives.height, height),
+            height: free(Axis::Height, self.drives.height, start.height),
             rotation: motion(Axis::Rotation, trial.speeds[1]),
+            lateral: match touching && self.seeks_aside {
+                true => free(Axis::Lateral, self.drives.lateral, start.lateral),
+                false => RigidMotion::held(if self.moving { self.aside() } else { 0.0 }, 0.0),
+            },
         }
     }
 }

@@ -45,6 +45,7 @@ pub fn start(
     workspace: &mut Workspace,
 ) -> Result<State, StepError> {
     inputs.validate()?;
+    model.wheel.sideways.check(inputs)?;
     let goal = Goal::new(model, inputs)?;
     let mut state = settle(model, tuning, &goal, Vec::new(), workspace)?;
     let Some(thermal) = &model.thermal else { return Ok(state) };
@@ -84,7 +85,7 @@ pub fn start(
 /// radius.
 fn difference(model: &RollingModel, before: &State, now: &State) -> f64 {
     let ([from, to], half_width) = ([before, now].map(State::resultant), now.half_width());
-    let forces = [Axis::Travel, Axis::Height].map(|axis| (to[axis] - from[axis]).abs());
+    let forces = [Axis::Travel, Axis::Height, Axis::Lateral].map(|axis| (to[axis] - from[axis]).abs());
     let force = forces.into_iter().fold(0.0, f64::max) / scale(model, to);
     let [v, v_before] = [now, before].map(|state| state.motion.velocity.now);
     let [v_c, v_c_before] = [now, before].map(|state| model.wheel.radius * state.motion.omega.now);

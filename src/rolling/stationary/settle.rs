@@ -66,11 +66,12 @@ pub(super) fn settle(
     for number in 0..MAX_PASSES {
         // The first pass finds out where wheel and rail touch, and whether they do.
         let touching = number > 0 && state.resultant().height > 0.0;
-        let sought = goal.sought.filter(|_| touching);
-        let pass = Pass { model, goal, friction, sought };
+        let pass = Pass { model, goal, friction, touching };
         let run = |state: &State| pass.run(state, &mut trial, workspace, &mut next);
         let passed = nodes::try_in_turn(model, &state, run)?;
-        change = if sought == goal.sought || !touching && number > 0 { passed } else { f64::INFINITY };
+        // Whether a speed is sought is decided from the second pass on.
+        let decided = number > 0 || goal.sought.is_none() && !goal.seeks_aside;
+        change = if decided { passed } else { f64::INFINITY };
         std::mem::swap(&mut state, &mut next);
         if change <= TOLERANCE {
             break;
@@ -115,8 +116,8 @@ struct Pass<'a> {
     goal: &'a Goal,
     /// Friction of every line.
     friction: &'a [Friction],
-    /// The axis whose speed is sought in this pass.
-    sought: Option<Axis>,
+    /// True if wheel and rail touch, so that speeds can be sought.
+    touching: bool,
 }
 
 impl Pass<'_> {
@@ -142,7 +143,8 @@ impl Pass<'_> {
         let contact = ContactStep {
             operators: &operators,
             free,
-            rigid: goal.motions(model, trial, self.sought, state.rigid().height, free[0].momentum),
+            rigid: goal.motions(model, trial, self.touching, state.rigid(), free[0].momentum),
+            spin: goal.spin(),
             time: td,
             duration: 0.0,
             place: [0.0; 2],
@@ -206,7 +208,8 @@ impl Pass<'_> {
         let load = state.resultant().height * width;
         let friction = state.friction();
         let carried = friction * load;
-        if self.sought.is_none() || asked.abs() < share * carried {
+        let sought = self.touching && (self.goal.sought.is_some() || self.goal.seeks_aside);
+        if !sought || asked.abs() < share * carried {
             return Ok(());
         }
         let demand = self.goal.demand(width);
@@ -220,15 +223,19 @@ fn complete(model: &RollingModel, goal: &Goal, trial: &Trial, mut state: State) 
         state.lines.iter_mut().for_each(|line| line.contact.rest());
     }
     let ([travel, rotation], accelerations) = (goal.actual(trial.speeds), trial.accelerations);
-    let rigid = PerAxis { travel, rotation, ..state.rigid() };
+    let lateral = if goal.seeks_aside && goal.moving { state.rigid().lateral } else { goal.aside() };
+    let rigid = PerAxis { travel, rotation, lateral, ..state.rigid() };
     state.lines.iter_mut().for_each(|line| line.contact.traction.rigid = rigid);
     state.motion = Motion {
         velocity: History { rate: accelerations.travel, ..History::constant(rigid.travel) },
         omega: History { rate: accelerations.rotation, ..History::constant(rigid.rotation) },
         height: History::constant(rigid.height),
         hub_velocity: History::default(),
+        lateral: History { rate: accelerations.lateral, ..History::constant(rigid.lateral) },
+        spin: goal.spin().velocity(rigid),
         ..state.motion
     };
+    state.side = model.wheel.sideways.at_rest(state.resultant().lateral);
     nodes::prefer(model, &mut state);
     (state.hub.gravity, state.elevation) = (model.wheel.gravity(&goal.drive), goal.drive.elevation);
     state.hub.brake = Brake::stationary(goal.given.rotation, rotation, state.hub.force.rotation);

@@ -89,13 +89,14 @@ pub fn advance(
     out: &mut State,
 ) -> Result<(), StepError> {
     inputs.validate()?;
+    model.wheel.sideways.check(inputs)?;
     if !(h > 0.0 && h <= LONGEST_STEP) {
         return Err(StepError::StepSize { step: h, longest: LONGEST_STEP });
     }
     let end = inputs.at(h);
     end.validate()?;
-    let PerAxis { travel: velocity, height: displacement, rotation: omega, .. } = state.motion.values();
-    let start = Drive { omega, velocity, displacement, ..inputs.at(0.0) };
+    let PerAxis { travel: velocity, height: displacement, rotation: omega, lateral } = state.motion.values();
+    let start = Drive { omega, velocity, displacement, lateral_velocity: lateral, ..inputs.at(0.0) };
     let h = h + state.clock.pending;
     if h < SHORTEST_STEP {
         out.clone_from(state);

@@ -7,9 +7,9 @@
 //!
 //! | quantity | scale |
 //! |---|---|
-//! | contact forces x, y | nominal load P |
+//! | contact forces x, y, z | nominal load P |
 //! | contact moment about the hub | P r |
-//! | mean slip of the tread in the patch | `(a/r)(V + a/Δt)`, or the slip itself where that is more |
+//! | mean slip of the tread in the patch, x and z | `(a/r)(V + a/Δt)`, or the slip itself where that is more |
 //! | mean temperatures of wheel and rail in the patch | 100 K, or the temperature rise where that is more |
 //!
 //! A wheel in the air has no contact forces. What acts on it besides its load are the damper and its own deformation,
@@ -49,6 +49,7 @@ pub fn controlled(model: &RollingModel, state: &State) -> Controlled {
         }),
         velocity: state.motion.velocity.now,
         omega: state.motion.omega.now,
+        lateral: state.motion.lateral.now,
     }
 }
 
@@ -104,11 +105,17 @@ impl Found {
         // What slip and temperature of the patch are without a patch is a convention.
         if from.touches() && to.touches() {
             let known = to.hub.prescribed.map(|prescribed| if prescribed { 1.0 } else { 0.0 });
-            let explained = missed(&|c| known.travel * c.velocity - known.rotation * radius * c.omega).abs();
+            let explained = [
+                missed(&|c| known.travel * c.velocity - known.rotation * radius * c.omega),
+                missed(&|c| known.lateral * c.lateral),
+            ];
             let half_width = model.contact.nominal_half_width();
             let speed = 0.5 * (found.velocity.abs() + (radius * found.omega).abs());
-            let scale = (half_width / radius * (speed + half_width / dt)).max(found.slip.abs());
-            error = error.max((missed(&|c| c.slip).abs() - explained) / scale);
+            let scale =
+                (half_width / radius * (speed + half_width / dt)).max(libm::hypot(found.slip[0], found.slip[1]));
+            for (k, explained) in explained.into_iter().enumerate() {
+                error = error.max((missed(&|c| c.slip[k]).abs() - explained.abs()) / scale);
+            }
             for body in 0..2 {
                 let rise = |c: &Controlled| c.temperatures[body];
                 warming = warming.max(missed(&rise).abs() / WARM.max(rise(&found).abs()));

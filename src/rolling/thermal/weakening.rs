@@ -110,7 +110,8 @@ impl WeakSteel {
         for ((&at, wheel), rail) in zone.iter().zip(wheel).zip(rail) {
             let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, at) };
             let hot = wheel.max(*rail);
-            let whole = (traction.friction.coefficient * traction.pressure.at(at) * traction.slip.at(at)).abs();
+            let slip = libm::hypot(traction.slip.at(at), traction.lateral_slip.at(at));
+            let whole = (traction.friction.coefficient * traction.pressure.at(at) * slip).abs();
             let rise = (warming * whole).min(hot.max(0.0) / share.max(LEAST));
             let rest = self.reference + hot - share * rise;
             let found = melted_share(rise, rest, &self.material);

@@ -11,7 +11,9 @@ def of_run(run, time):
 
     `z` and `half_length` [mm]; `edges` [mm] between the lines, half way, and at the sides of the patch; `pressure`, the largest
     of each line; `adheres` [mm], how far along the rail a line sticks from its leading edge, and `ahead`, on which side that
-    is; `temperature_wheel` and `temperature_rail` [°C], the highest of each line, unless the run has no heat.
+    is; `temperature_wheel` and `temperature_rail` [°C], the highest of each line, unless the run has no heat. `shear` and
+    `slip`, each a pair of rows along and across, are the mean traction on the wheel and the mean slip of each line, where
+    anything goes across.
     """
     at = {name: _at(run.lines, name, time) for name in run.lines.values}
     pressure = shown("Pa", at["pressure_max"])
@@ -26,7 +28,21 @@ def of_run(run, time):
         if hottest is not None and np.any(hottest):
             rows[f"temperature_{body}"] = CELSIUS(hottest)
     found = {name: [rounded(row, 5) for row in values] for name, values in rows.items()}
-    return found | {"ahead": _ahead(run, time), "units": units}
+    arrows, arrow_units = _arrows(at, rows)
+    return found | arrows | {"ahead": _ahead(run, time), "units": units | arrow_units}
+
+
+def _arrows(at, rows):
+    """Mean shear and slip of the lines along and across, and their units; nothing where nothing goes across."""
+    if not {"force_x", "force_z", "tread_slip", "tread_slip_z"} <= set(at) or not np.any(at["force_z"]):
+        return {}, {}
+    area = 2.0 * at["half_length"] * (1e-3 * np.diff(rows["edges"], axis=1))
+    shear = [np.divide(at[name], area, out=np.zeros_like(area), where=area > 0.0) for name in ("force_x", "force_z")]
+    found, units = {}, {}
+    for name, unit, pair in (("shear", "Pa", shear), ("slip", "m/s", [at["tread_slip"], at["tread_slip_z"]])):
+        how = shown(unit, np.hypot(*pair))
+        found[name], units[name] = [[rounded(row, 5) for row in how(part)] for part in pair], how.label
+    return found, units
 
 
 def _at(lines, name, time):

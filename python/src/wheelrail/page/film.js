@@ -108,6 +108,28 @@ function patchFromAbove(lines, frame, fit) {
       hovertemplate: "x %{x:.3~g} mm, z %{y:.3~g} mm<extra></extra>",
       line: { color: colour("--slip"), width: 3 },
     });
+  // Arrows from the middle of each line, the longest of the run as long as the patch.
+  const arrows = (name, pair, unit, c) => {
+    const longest = Math.max(...pair[0].flatMap((along, k) => along.map((v, i) => Math.hypot(v, pair[1][k][i])))) || 1,
+      [along, across] = pair.map((rows) => rows[frame]),
+      tip = (part) => (reach * part) / longest;
+    return {
+      type: "scatter",
+      mode: "lines+markers",
+      name,
+      x: z.flatMap((_, k) => [0, tip(along[k]), null]),
+      y: z.flatMap((at, k) => [at, at + tip(across[k]), null]),
+      text: z.flatMap((_, k) => ["", `${Math.hypot(along[k], across[k]).toPrecision(3)} ${unit}`, ""]),
+      hovertemplate: `${name} %{text}<extra></extra>`,
+      line: { color: colour(c), width: 1.5 },
+      marker: { color: colour(c), symbol: "arrow", angleref: "previous", size: z.flatMap(() => [0, 9, 0]) },
+    };
+  };
+  for (const [key, name, c] of [
+    ["shear", "mean shear on the wheel", "--stick"],
+    ["slip", "mean slip of the tread", "--slip"],
+  ])
+    if (lines[key]) data.push(arrows(name, lines[key], lines.units[key], c));
   const bodies = [
     ["temperature_wheel", "hottest place of the wheel", "--c1", "solid"],
     ["temperature_rail", "hottest place of the rail", "--c0", "dash"],

@@ -58,7 +58,10 @@ def _along(run):
     pressure_unit = shown("Pa", known["pressure"])
     if friction is not None:
         film["limit"] = _rows(pressure_unit(friction[:, None] * known["pressure"]))
-    film["state"] = _states(known, friction).tolist()
+    # What goes across slips, too.
+    beside = {name: run.patch.values[f"{name}_z"][kept] for name in ("slip", "shear") if f"{name}_z" in run.patch.values}
+    lengths = {name: np.hypot(known[name], across) for name, across in beside.items() if name in known}
+    film["state"] = _states(known | lengths, friction).tolist()
     film["units"] = {}
     for name, values in known.items():
         unit = pressure_unit if name == "shear" else CELSIUS if SHAPES[name] == "K" else shown(SHAPES[name], values)

@@ -24,7 +24,7 @@ GUESSES = (
     (r"temperature\.|.*peak_temperature$|damage\.rail_peak$|profile\.temperature", "K"),
     (r".*\.(force|load)|damage\.t_gamma$", "N"),
     (r".*(moment|torque)", "N.m"), (r"heat\.|brake\.power$", "W"), (r"energy\.", "J"), (r".*pressure|profile\.shear", "Pa"),
-    (r".*velocity$|.*slip$", "m/s"), (r"wheel\.omega$", "rad/s"),
+    (r".*velocity$|.*slip(_z)?$", "m/s"), (r".*slip_direction$", "rad"), (r"contact\.spin$", "1/m"), (r"hub\..*_power$", "W"), (r"wheel\.omega$", "rad/s"),
     (r"wheel\.angular_acceleration$", "rad/s2"), (r"wheel\.acceleration$", "m/s2"),
     (r".*(half_width|approach|distance|height|length|depth\w*|flattening\w*|melted|growth)$|profile\.x$", "m"),
     (r".*(creepage|slide|adhesion|utilisation|stick_fraction|residual|friction|yielded|fi_surf)$", "1"),

@@ -1,0 +1,84 @@
+//! What contact with two directions, `contact.lateral`, goes with.
+
+use super::dependent::{ConfigError, Dependent};
+use super::table::Config;
+use super::value::display_number;
+use std::f64::consts::PI;
+
+/// Refuses parameters with which a contact of two directions is not computed.
+pub fn check(config: &Config) -> Result<(), ConfigError> {
+    let (contact, solver) = (&config.contact, &config.solver);
+    let reversible = config.thermal.enabled && config.physics.thermoelastic_heating;
+    let others = [
+        (
+            contact.shape.is_line(),
+            "contact.shape = line, whose contact has no width",
+            "contact.shape = ellipse or rows",
+        ),
+        (solver.contact.is_grid(), "solver.contact = grid", "solver.contact = auto"),
+        (!solver.response.is_reduced(), "solver.response = full", "solver.response = reduced"),
+        (!config.wheel.profile.is_empty(), "a wheel.profile", "wheel.profile to nothing"),
+        (!config.rail.profile.is_empty(), "a rail.profile", "rail.profile to nothing"),
+        (config.damage.wear.is_on(), "damage.wear = t_gamma", "damage.wear = off"),
+        (
+            config.damping.rayleigh_stiffness > 0.0,
+            "damping.rayleigh_stiffness above 0",
+            "damping.rayleigh_stiffness = 0",
+        ),
+        (reversible, "physics.thermoelastic_heating = true", "physics.thermoelastic_heating = false"),
+    ];
+    let refused = others.into_iter().find(|(found, ..)| config.contact.lateral && *found);
+    refused.map_or(Ok(()), |(_, other, remedy)| Err(ConfigError::Lateral { other, remedy }))
+}
+
+/// Dampers and masses beside lateral springs, which need them, and a tread that is no heavier than all that moves sideways.
+pub fn ranges(config: &Config) -> Vec<Dependent> {
+    let (wheel, rail) = (&config.wheel, &config.rail);
+    let annulus = PI * (wheel.radius.powi(2) - wheel.hub_radius.powi(2)) * config.width() * config.material.density;
+    let beside = |name, value, unit, (spring, stiffness): (&str, f64), most: f64| Dependent {
+        name,
+        value,
+        unit,
+        low: 0.0,
+        high: if stiffness > 0.0 { most } else { 0.0 },
+        others: format!("{spring} = {} N/m (0: rigid)", display_number(stiffness)),
+    };
+    let of_wheel = ("wheel.lateral_stiffness", wheel.lateral_stiffness);
+    let of_rail = ("rail.lateral_stiffness", rail.lateral_stiffness);
+    let moving = annulus + wheel.hub_mass + wheel.lateral_mass;
+    vec![
+        beside("wheel.lateral_damping", wheel.lateral_damping, "N.s/m", of_wheel, f64::INFINITY),
+        beside("wheel.lateral_tread_mass", wheel.lateral_tread_mass, "kg", of_wheel, moving),
+        beside("rail.lateral_damping", rail.lateral_damping, "N.s/m", of_rail, f64::INFINITY),
+        beside("rail.lateral_mass", rail.lateral_mass, "kg", of_rail, f64::INFINITY),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{ContactMethod, ContactShape};
+
+    fn refused(change: impl Fn(&mut Config), words: &[&str]) {
+        let mut config = Config::default();
+        (config.contact.lateral, config.contact.shape) = (true, ContactShape::Ellipse);
+        assert_eq!(config.validate(), Ok(()));
+        change(&mut config);
+        let message = config.validate().unwrap_err().to_string();
+        assert!(words.iter().all(|word| message.contains(word)), "{message}");
+    }
+
+    #[test]
+    fn what_does_not_go_with_two_directions_is_refused_with_what_to_set() {
+        let both = |other: &'static str, remedy: &'static str| ["contact.lateral = true", other, remedy];
+        refused(|c| c.contact.shape = ContactShape::Line, &both("contact.shape = line", "set contact.shape = ellipse"));
+        refused(
+            |c| c.solver.contact = ContactMethod::Grid,
+            &both("solver.contact = grid", "set solver.contact = auto"),
+        );
+        refused(|c| c.wheel.profile = "flat(length=0.04)".to_owned(), &both("wheel.profile", "set wheel.profile"));
+        refused(|c| c.wheel.lateral_damping = 1e3, &["wheel.lateral_damping = 1000", "wheel.lateral_stiffness = 0"]);
+        let heavy = |c: &mut Config| (c.wheel.lateral_stiffness, c.wheel.lateral_tread_mass) = (1e8, 1e4);
+        refused(heavy, &["wheel.lateral_tread_mass = 10000", "wheel.lateral_stiffness = 1e8"]);
+    }
+}

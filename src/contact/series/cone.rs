@@ -1,0 +1,342 @@
+//! Shear of one line along and across, at the points of [`super::points`]: its vector stays within a disc.
+//!
+//! Of the shear q, the slip s and the radius g of the disc, `q = P(q − r s)` says Coulomb's law for any `r > 0`, with the
+//! projection P on the disc. Slips stand half a point upstream of their shear, where they decide what sticks. Where it
+//! slips, the direction is that of the slip at the place of the shear itself: in two directions both differ, and with the
+//! slip upstream friction would point to where it was. Both are one where slip begins. A step of Newton's method makes
+//! this law linear: what sticks has no slip, and what slips turns along the circle.
+//! Theory: `docs/theory/patch-contact.md`, section 3.
+
+use super::across::Vectors;
+use super::chebyshev::Arch;
+use super::equations::eliminate;
+use super::points::{COUNT, PointTables};
+use super::series_line::SeriesLine;
+use super::surface::SmoothSurfaces;
+use super::together::Answer;
+use crate::axes::Axis;
+use crate::contact::flexibility::{ByMoments, ByPowers};
+use crate::contact::kernel::Logarithm;
+use crate::linalg::POINTS;
+use std::f64::consts::PI;
+
+/// Coefficients of the polynomials of slip along and across.
+pub const SLIPS: usize = 2 * POINTS;
+/// Unknowns at most.
+const UNKNOWNS: usize = 2 * COUNT;
+/// Slip times r over the radius of the disc at which its direction is half that of the slip upstream \[1].
+const BEGINNING: f64 = 0.05;
+
+/// Slips at places that belong to the points.
+struct SlipRows {
+    /// Slips along and across by the shear of every point in this direction [m/s/Pa].
+    by_shear: [[[f64; COUNT]; COUNT]; 2],
+    /// Slips without any shear [m/s].
+    known: Vectors,
+    /// Powers of the place over the half-length of the line.
+    powers: [[f64; COUNT]; POINTS],
+}
+
+/// The tangential problem of one line.
+pub struct ConeProblem {
+    /// Upstream of the shear, and in its place.
+    rows: [SlipRows; 2],
+    /// Moments of the shear of every point with the powers of the places \[m].
+    moments: [[f64; COUNT]; POINTS],
+    /// Friction that points bear, and that at the peak of the pressure \[Pa].
+    bears: [f64; COUNT],
+    most: f64,
+}
+
+/// What friction says of a point.
+#[derive(Clone, Copy)]
+enum PointState {
+    Stick,
+    /// `a` and `b`: how the slips upstream and in place count in that along the circle; `constant`: the rest of it [m/s];
+    /// `turn`: how much of a turn of the shear is left over, over r [m/s/Pa].
+    Slip {
+        direction: [f64; 2],
+        a: [f64; 2],
+        b: [f64; 2],
+        constant: f64,
+        turn: f64,
+    },
+}
+
+/// What friction says of all points of a line.
+pub struct Verdict {
+    points: [PointState; COUNT],
+    /// Largest violation of friction over its peak \[1], and the sum of the squares of all.
+    pub largest: f64,
+    pub squares: f64,
+}
+
+/// Shear of a line in the linearised law: under the known slip, then what a unit of each coefficient of the polynomials of
+/// the slip takes away \[Pa].
+pub struct ConeAnswer {
+    shears: [Vectors; 1 + SLIPS],
+    moments: [[f64; SLIPS]; 1 + SLIPS],
+}
+
+impl SlipRows {
+    fn slips(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
+        std::array::from_fn(|c| {
+            let mut slips = self.known[c];
+            for (by, q) in self.by_shear[c].iter().zip(&shear[c]) {
+                slips.iter_mut().zip(by).for_each(|(slip, by)| *slip += by * q);
+            }
+            for (power, value) in self.powers.iter().zip(&others[POINTS * c..]) {
+                slips.iter_mut().zip(power).for_each(|(slip, power)| *slip += value * power);
+            }
+            slips
+        })
+    }
+}
+
+impl SeriesLine<'_> {
+    /// The problem of the line, whose tractions have no shear at the moment, with the smooth displacements `surface`.
+    pub fn cone_problem(&self, surface: &SmoothSurfaces) -> ConeProblem {
+        let (constants, upstream) = (self.constants, self.upstream());
+        let Arch { centre, half_width: half, terms, .. } = self.tractions.pressure;
+        let at = |t: &f64| centre + upstream * half * t;
+        let places = [&constants.of_points, &constants.in_place].map(|tables| tables.slips.each_ref().map(at));
+        let both: [f64; UNKNOWNS] = std::array::from_fn(|i| places[i / COUNT][i % COUNT]);
+        let known = [self.slip(&both, surface, false), self.lateral_slip(&both, false)];
+        let rows = |set: usize, tables: &PointTables| SlipRows {
+            by_shear: [self.problem.line.kernel.tangential, self.problem.line.kernel.lateral]
+                .map(|kernel| self.slips_by_points(tables, kernel)),
+            known: known.map(|known| std::array::from_fn(|i| known[set * COUNT + i])),
+            powers: self.powers_at(&places[set]),
+        };
+        let rows = [rows(0, &constants.of_points), rows(1, &constants.in_place)];
+        // The rule of Gauss and Chebyshev has its places at the points.
+        let part = PI / (COUNT + 1) as f64;
+        let weights: [f64; COUNT] = std::array::from_fn(|i| half * part * libm::sin((i + 1) as f64 * part));
+        let moments = rows[1].powers.map(|power| std::array::from_fn(|i| weights[i] * power[i]));
+        let bears = self.tractions.pressure.density(&places[1]).map(|p| self.friction * p.max(0.0));
+        ConeProblem { rows, moments, bears, most: self.friction * terms[0] }
+    }
+
+    /// Slips by the shear of points with the flexibility `kernel` \[m/s/Pa].
+    fn slips_by_points(&self, tables: &PointTables, kernel: Logarithm) -> [[f64; COUNT]; COUNT] {
+        let half = self.tractions.pressure.half_width;
+        let speed = self.rigid.travel + self.rim_velocity();
+        let convection = speed * kernel.factor * PI * self.upstream();
+        let rate = -2.0 * kernel.factor * self.problem.line.time.a0 * half;
+        tables.slips_by_shear([convection, rate], [half, kernel.reach])
+    }
+}
+
+impl ConeProblem {
+    /// Moments [N/m] of a shear with the powers along, then across.
+    pub fn moments(&self, shear: &Vectors) -> [f64; SLIPS] {
+        std::array::from_fn(|k| {
+            self.moments[k % POINTS].iter().zip(&shear[k / POINTS]).map(|(by, q)| by * q).sum()
+        })
+    }
+
+    /// Shears within the disc that come next to the given ones, which belong to a friction `ratio` times smaller.
+    pub fn within(&self, shear: &Vectors, ratio: f64) -> Vectors {
+        let mut within = shear.map(|shear| shear.map(|q| ratio * q));
+        for (i, bears) in self.bears.iter().enumerate() {
+            let size = libm::hypot(within[0][i], within[1][i]);
+            if size > *bears {
+                within.iter_mut().for_each(|shear| shear[i] *= bears / size);
+            }
+        }
+        within
+    }
+
+    /// What friction says of a shear and the slip by all else as polynomials.
+    pub fn verdict(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Verdict {
+        let [upstream, in_place] = self.rows.each_ref().map(|rows| rows.slips(shear, others));
+        let (mut points, mut largest, mut squares) = ([PointState::Stick; COUNT], 0.0_f64, 0.0);
+        for (i, point) in points.iter_mut().enumerate() {
+            let pick = |values: &Vectors| [values[0][i], values[1][i]];
+            let (state, violation) = self.judge(i, pick(shear), [pick(&upstream), pick(&in_place)]);
+            let violation = violation / self.most.max(f64::MIN_POSITIVE);
+            (*point, largest, squares) = (state, largest.max(violation), squares + violation * violation);
+        }
+        Verdict { points, largest, squares }
+    }
+
+    /// What friction says of a point with the shear q and the slips `s` upstream and in place, and its violation \[Pa].
+    fn judge(&self, i: usize, q: [f64; 2], [s, there]: [[f64; 2]; 2]) -> (PointState, f64) {
+        let bears = self.bears[i];
+        let least = self.rows[0].by_shear.iter().map(|by| by[i][i].abs()).fold(f64::MIN_POSITIVE, f64::max);
+        let length = |v: [f64; 2]| libm::hypot(v[0], v[1]);
+        let (speed, r) = (length(s), 1.0 / least);
+        if length([q[0] - r * s[0], q[1] - r * s[1]]) <= bears {
+            return (PointState::Stick, r * speed);
+        }
+        let (beginning, ahead) = (BEGINNING * bears, r * speed);
+        let sum = (ahead + beginning).max(f64::MIN_POSITIVE);
+        let (weight, change) = (ahead / sum, beginning * r / (sum * sum));
+        let between = [there[0] - s[0], there[1] - s[1]];
+        let slip = [s[0] + weight * between[0], s[1] + weight * between[1]];
+        let held = [q[0] - r * slip[0], q[1] - r * slip[1]];
+        let size = length(held).max(f64::MIN_POSITIVE);
+        let direction = held.map(|z| z / size);
+        let tangent = [-direction[1], direction[0]];
+        let dot = |v: [f64; 2], w: [f64; 2]| v[0] * w[0] + v[1] * w[1];
+        let grows = if speed > 0.0 { change * dot(tangent, between) / speed } else { 0.0 };
+        let a = [0, 1].map(|c| (1.0 - weight) * tangent[c] + grows * s[c]);
+        let b = tangent.map(|t| weight * t);
+        let constant = dot(tangent, slip) - dot(a, s) - dot(b, there);
+        let share = (bears / size).min(1.0);
+        let turn = if share > 0.0 { (1.0 - share) / share * least } else { f64::INFINITY };
+        let violation = length([q[0] - bears * direction[0], q[1] - bears * direction[1]]);
+        (PointState::Slip { direction, a, b, constant, turn }, violation)
+    }
+
+    /// Shear in the law as it is linear about a verdict; `None`: the equations are singular.
+    pub fn answer(&self, verdict: &Verdict) -> Option<ConeAnswer> {
+        let bound = std::array::from_fn(|c| {
+            std::array::from_fn(|i| match verdict.points[i] {
+                PointState::Stick => 0.0,
+                PointState::Slip { direction, .. } => self.bears[i] * direction[c],
+            })
+        });
+        let unknowns = Unknown::of(verdict);
+        let slips = self.rows.each_ref().map(|rows| rows.slips(&bound, &[0.0; SLIPS]));
+        let count = unknowns.len();
+        let mut columns = [[0.0; UNKNOWNS]; UNKNOWNS + 1 + SLIPS];
+        for (row, unknown) in unknowns.iter().enumerate() {
+            let Unknown { point: i, a, b, constant, turn, .. } = *unknown;
+            for (column, by) in columns.iter_mut().zip(&unknowns) {
+                let part = |c: usize| {
+                    let [upstream, in_place] = self.rows.each_ref().map(|rows| rows.by_shear[c][by.point][i]);
+                    by.along[c] * (a[c] * upstream + b[c] * in_place)
+                };
+                column[row] = part(0) + part(1);
+            }
+            columns[row][row] += turn;
+            let part = |c: usize| a[c] * slips[0][c][i] + b[c] * slips[1][c][i];
+            columns[count][row] = -(constant + part(0) + part(1));
+            for (k, column) in columns[count + 1..].iter_mut().take(SLIPS).enumerate() {
+                let [upstream, in_place] = self.rows.each_ref().map(|rows| rows.powers[k % POINTS][i]);
+                column[row] = a[k / POINTS] * upstream + b[k / POINTS] * in_place;
+            }
+        }
+        if !eliminate(&mut columns[..count + 1 + SLIPS], count) {
+            return None;
+        }
+        let mut shears = [[[0.0; COUNT]; 2]; 1 + SLIPS];
+        shears[0] = bound;
+        for (shear, column) in shears.iter_mut().zip(&columns[count..]) {
+            for (unknown, value) in unknowns.iter().zip(column) {
+                for c in 0..2 {
+                    shear[c][unknown.point] += unknown.along[c] * value;
+                }
+            }
+        }
+        let moments = shears.each_ref().map(|shear| self.moments(shear));
+        Some(ConeAnswer { shears, moments })
+    }
+}
+
+/// One unknown of the linear law with its equation: part of the shear of a point in a direction.
+#[derive(Clone, Copy)]
+struct Unknown {
+    point: usize,
+    along: [f64; 2],
+    a: [f64; 2],
+    b: [f64; 2],
+    constant: f64,
+    turn: f64,
+}
+
+impl Unknown {
+    /// Two of each point that sticks, and one of each that slips and bears anything.
+    fn of(verdict: &Verdict) -> Vec<Self> {
+        let mut all = Vec::with_capacity(UNKNOWNS);
+        for (point, state) in verdict.points.iter().enumerate() {
+            match *state {
+                PointState::Stick => all.extend([[1.0, 0.0], [0.0, 1.0]].map(|along| Self {
+                    point,
+                    along,
+                    a: along,
+                    b: [0.0; 2],
+                    constant: 0.0,
+                    turn: 0.0,
+                })),
+                PointState::Slip { turn, .. } if !turn.is_finite() => {}
+                PointState::Slip { direction, a, b, constant, turn } => {
+                    all.push(Self { point, along: [-direction[1], direction[0]], a, b, constant, turn });
+                }
+            }
+        }
+        all
+    }
+}
+
+impl Verdict {
+    /// States of the points: 0 where they stick, 1 where they slip.
+    pub fn states(&self) -> [i8; COUNT] {
+        self.points.map(|point| match point {
+            PointState::Stick => 0,
+            PointState::Slip { .. } => 1,
+        })
+    }
+}
+
+impl ConeAnswer {
+    /// Shear under a slip besides the known one.
+    pub fn shear(&self, slips: &[f64; SLIPS]) -> Vectors {
+        let mut shear = self.shears[0];
+        for (value, by) in slips.iter().zip(&self.shears[1..]) {
+            shear.as_flattened_mut().iter_mut().zip(by.as_flattened()).for_each(|(q, by)| *q -= value * by);
+        }
+        shear
+    }
+}
+
+/// Coefficients along and across as one list.
+fn joined([along, across]: [ByPowers; 2]) -> [f64; SLIPS] {
+    std::array::from_fn(|k| if k < POINTS { along[k] } else { across[k - POINTS] })
+}
+
+impl Answer<SLIPS> for ConeAnswer {
+    fn moments(&self) -> ([f64; SLIPS], [[f64; SLIPS]; SLIPS]) {
+        let [known, by @ ..] = self.moments;
+        (known, by)
+    }
+
+    fn forces(&self) -> ([f64; 2], [[f64; 2]; SLIPS]) {
+        let [known, by @ ..] = self.moments.map(|moments| [moments[0], moments[POINTS]]);
+        (known, by)
+    }
+
+    fn between(contact: &super::contact::SeriesContact, [at, by]: [usize; 2]) -> [[f64; SLIPS]; SLIPS] {
+        let (along, line) = (contact.slips_between([at, by]), &contact.lines[at]);
+        let [rate, strain] = line.slip_of_field();
+        let patch = line.problem.line.patch;
+        let [across, askew]: [ByMoments; 2] = patch.and_then(|patch| patch.flexibility.across(patch.line, by)).map_or_else(
+            Default::default,
+            |tables| {
+                tables.map(|between| {
+                    std::array::from_fn(|n| {
+                        std::array::from_fn(|p| rate * between.displacement[n][p] + strain * between.strain[n][p])
+                    })
+                })
+            },
+        );
+        std::array::from_fn(|n| match n < POINTS {
+            true => joined([along[n], askew[n]]),
+            false => joined([askew[n - POINTS], across[n - POINTS]]),
+        })
+    }
+
+    fn by_motion(line: &SeriesLine, axis: Axis) -> [f64; SLIPS] {
+        let (mut along, mut across) = (line.slip_by_motion(axis), ByPowers::default());
+        let spin = line.problem.spin.by(axis);
+        along[0] -= spin * line.problem.line.position;
+        across[0] = if axis == Axis::Lateral { 1.0 } else { 0.0 };
+        across[1] = spin * line.half_length;
+        joined([along, across])
+    }
+
+    fn along(moments: &[f64; SLIPS]) -> ByPowers {
+        std::array::from_fn(|p| moments[p])
+    }
+}

@@ -1,0 +1,254 @@
+//! The search for the shear of all lines along and across: Newton's method on the law of [`super::cone`], all lines at once.
+
+use super::across::Vectors;
+use super::chebyshev::{Arch, TERMS};
+use super::cone::{ConeAnswer, ConeProblem, SLIPS, Verdict};
+use super::contact::{MOST_LINES, SeriesContact};
+use super::places::total;
+use super::points::COUNT;
+use super::series_line::SeriesLine;
+use super::stick::{Motions, Settling};
+use super::together::Answer;
+use crate::axes::PerAxis;
+use crate::contact::error::ContactError;
+use crate::contact::flexibility::polynomial;
+
+/// Iterations of normal and tangential problem.
+const MOST: usize = 40;
+/// Violation of friction that ends Newton's method \[1], and the share of the last change of the pressure that does.
+const TOLERANCE: f64 = 1e-12;
+const SHARE: f64 = 1e-3;
+/// Steps of Newton's method that are tried whole, and with a search along each.
+const WHOLE: usize = 12;
+const SEARCHED: usize = 60;
+/// Share of the promised fall of the violations that a step has to keep, and the shortest step \[1].
+const KEPT: f64 = 0.1;
+const SHORTEST: f64 = 0.01;
+
+/// Finds tractions and motions of lines that slip along and across.
+pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
+    let mut search = ConeSearch::new(contact);
+    search.write(contact);
+    let (mut normal, mut settling) = (contact.press()?, Settling::new(contact));
+    for _ in 0..MOST {
+        let before = Motions::of(contact);
+        let change = search.advance(contact, normal)?;
+        if settling.is_last(normal, before.moved(contact).max(change)) {
+            search.finish(contact);
+            return Ok(());
+        }
+        normal = contact.press()?;
+    }
+    Err(ContactError::Unsuited { reason: "normal contact and that of points along and across do not settle" })
+}
+
+/// Shear of all lines, and the linear problem about it.
+struct ConeSearch {
+    shears: Vec<Vectors>,
+    states: Vec<[i8; COUNT]>,
+    /// Radius of the discs at the peak of the pressure to which the shears belong \[Pa].
+    most: Vec<f64>,
+}
+
+/// The tangential problem of all lines under given pressures, and where the search is in it.
+struct Newton<'a> {
+    problems: &'a [ConeProblem],
+    /// Motions of the known slip.
+    base: PerAxis<f64>,
+    shears: Vec<Vectors>,
+    /// Slips by all but the known one, as polynomials.
+    slips: Vec<[f64; SLIPS]>,
+    /// Present motions.
+    rigid: PerAxis<f64>,
+    verdicts: Vec<Verdict>,
+}
+
+impl ConeSearch {
+    /// Begins with the last tractions.
+    fn new(contact: &mut SeriesContact) -> Self {
+        let shear = |line: &SeriesLine| match line.tractions.directions {
+            Some(_) => line.points_of([&line.tractions.stick, &line.tractions.lateral]),
+            None => [[0.0; COUNT]; 2],
+        };
+        let shears: Vec<_> = contact.lines.iter().map(shear).collect();
+        let most = contact.lines.iter().map(|line| line.before_friction * line.tractions.pressure.terms[0]);
+        Self { shears, states: vec![[0; COUNT]; contact.lines.len()], most: most.collect() }
+    }
+
+    /// Gives all lines the tractions of the search on their present patches.
+    fn write(&self, contact: &mut SeriesContact) {
+        for ((line, shear), states) in contact.lines.iter_mut().zip(&self.shears).zip(&self.states) {
+            line.place_pressure();
+            line.take_points(shear);
+            line.tractions.directions = Some(*states);
+        }
+        contact.displace();
+    }
+
+    /// Finds shear and motions under the present pressures, the last change of which was `normal`; returns the largest
+    /// violation of friction before.
+    fn advance(&mut self, contact: &mut SeriesContact, normal: f64) -> Result<f64, ContactError> {
+        let problems = contact.cone_problems();
+        for (((line, problem), shear), most) in
+            contact.lines.iter().zip(&problems).zip(&mut self.shears).zip(&mut self.most)
+        {
+            let now = line.friction * line.tractions.pressure.terms[0];
+            let ratio = if *most > 0.0 { now / *most } else { 1.0 };
+            (*shear, *most) = (problem.within(shear, ratio), now);
+        }
+        let mut newton = Newton::new(contact, &problems, &self.shears);
+        let violation = newton.largest();
+        let tolerance = (SHARE * normal).clamp(TOLERANCE, 1e-3);
+        newton.run(contact, tolerance)?;
+        self.shears = newton.shears;
+        self.states = newton.verdicts.iter().map(Verdict::states).collect();
+        let rigid = newton.rigid;
+        contact.lines.iter_mut().for_each(|line| line.rigid = rigid);
+        self.write(contact);
+        Ok(violation)
+    }
+
+    /// Takes the slips of the solution.
+    fn finish(&self, contact: &mut SeriesContact) {
+        contact.exchange();
+        for line in &mut contact.lines {
+            let (places, _) = line.slipping();
+            line.slips = line.slip(&places, &line.surface, true);
+            line.across.slips = line.lateral_slip(&places, true);
+        }
+    }
+}
+
+impl<'a> Newton<'a> {
+    fn new(contact: &SeriesContact, problems: &'a [ConeProblem], shears: &[Vectors]) -> Self {
+        let moments: Vec<_> = problems.iter().zip(shears).map(|(problem, shear)| problem.moments(shear)).collect();
+        let slips = |at: usize| {
+            let mut sum = [0.0; SLIPS];
+            for (by, moments) in moments.iter().enumerate() {
+                let slips = polynomial(&ConeAnswer::between(contact, [at, by]), moments);
+                sum.iter_mut().zip(slips).for_each(|(sum, slip)| *sum += slip);
+            }
+            sum
+        };
+        let rigid = contact.lines[0].rigid;
+        let (shears, slips) = (shears.to_vec(), (0..problems.len()).map(slips).collect());
+        let mut newton = Self { problems, base: rigid, shears, slips, rigid, verdicts: Vec::new() };
+        newton.verdicts = newton.judge(&newton.shears, &newton.slips);
+        newton
+    }
+
+    fn judge(&self, shears: &[Vectors], slips: &[[f64; SLIPS]]) -> Vec<Verdict> {
+        self.problems.iter().zip(shears).zip(slips).map(|((problem, q), slips)| problem.verdict(q, slips)).collect()
+    }
+
+    /// Largest violation of friction \[1].
+    fn largest(&self) -> f64 {
+        self.verdicts.iter().map(|verdict| verdict.largest).fold(0.0, f64::max)
+    }
+
+    /// Goes on until friction is violated by no more than the `tolerance`; first by whole steps, then with a search.
+    fn run(&mut self, contact: &mut SeriesContact, tolerance: f64) -> Result<(), ContactError> {
+        let (shears, slips) = (self.shears.clone(), self.slips.clone());
+        if self.steps(contact, tolerance, WHOLE, false) {
+            return Ok(());
+        }
+        (self.shears, self.slips, self.rigid) = (shears, slips, self.base);
+        self.verdicts = self.judge(&self.shears, &self.slips);
+        match self.steps(contact, tolerance, SEARCHED, true) {
+            true => Ok(()),
+            false => Err(ContactError::Unsuited { reason: "the shear of points along and across is not found" }),
+        }
+    }
+
+    /// True if at most `most` steps were enough.
+    fn steps(&mut self, contact: &mut SeriesContact, tolerance: f64, most: usize, search: bool) -> bool {
+        let mut moved = contact.free_axes().next().is_some();
+        for _ in 0..most {
+            if self.largest() <= tolerance && !moved {
+                return true;
+            }
+            if self.step(contact, search).is_none() {
+                return false;
+            }
+            moved = false;
+        }
+        self.largest() <= tolerance
+    }
+
+    /// One step; `None`: there is none.
+    fn step(&mut self, contact: &mut SeriesContact, search: bool) -> Option<()> {
+        let answers = self.problems.iter().zip(&self.verdicts).map(|(problem, verdict)| problem.answer(verdict));
+        let answers: Vec<_> = answers.collect();
+        if answers.iter().any(Option::is_none) {
+            return None;
+        }
+        contact.lines.iter_mut().for_each(|line| line.rigid = self.base);
+        let found: [_; MOST_LINES] = contact.share(&answers).ok()?;
+        let (rigid, slips) = (contact.lines[0].rigid, &found[..answers.len()]);
+        let shears: Vec<_> = answers.iter().flatten().zip(slips).map(|(answer, slips)| answer.shear(slips)).collect();
+        let squares = |verdicts: &[Verdict]| verdicts.iter().map(|verdict| verdict.squares).sum::<f64>();
+        let before = squares(&self.verdicts).sqrt();
+        let mut part = 1.0;
+        loop {
+            let mix = |old: f64, new: f64| old + part * (new - old);
+            let mut tried = self.shears.clone();
+            for (old, new) in tried.as_flattened_mut().as_flattened_mut().iter_mut().zip(shears.as_flattened().as_flattened()) {
+                *old = mix(*old, *new);
+            }
+            let mut moved = self.slips.clone();
+            for (old, new) in moved.as_flattened_mut().iter_mut().zip(slips.as_flattened()) {
+                *old = mix(*old, *new);
+            }
+            let verdicts = self.judge(&tried, &moved);
+            let enough = squares(&verdicts).sqrt() <= before * (1.0 - KEPT * part);
+            if !search || enough || part < SHORTEST {
+                let rigid = PerAxis::from_fn(|axis| mix(self.rigid[axis], rigid[axis]));
+                (self.shears, self.slips, self.rigid, self.verdicts) = (tried, moved, rigid, verdicts);
+                return self.largest().is_finite().then_some(());
+            }
+            part *= 0.5;
+        }
+    }
+}
+
+impl SeriesContact<'_> {
+    /// Problems of all lines, which have no shear from now on.
+    fn cone_problems(&mut self) -> Vec<ConeProblem> {
+        self.lines.iter_mut().for_each(SeriesLine::release_points);
+        self.exchange();
+        let surface = self.surface();
+        self.lines.iter().map(|line| line.cone_problem(&surface)).collect()
+    }
+}
+
+impl SeriesLine<'_> {
+    /// Shear at the points of two series on the patch.
+    fn points_of(&self, series: [&Arch; 2]) -> Vectors {
+        let (tables, upstream) = (&self.constants.of_points, self.upstream());
+        series.map(|series| {
+            let on_unit = Arch { centre: 0.0, half_width: 1.0, ..*series };
+            on_unit.density(&tables.tractions.map(|t| upstream * t))
+        })
+    }
+
+    /// Takes the shear at all points.
+    fn take_points(&mut self, shear: &Vectors) {
+        let (tables, upstream) = (&self.constants.of_points, self.upstream());
+        let [along, across] = shear.each_ref().map(|shear| {
+            let terms = tables.terms_of(shear, upstream);
+            Arch { count: COUNT, terms: std::array::from_fn(|k| terms[k]), ..self.tractions.pressure }
+        });
+        (self.tractions.stick, self.tractions.lateral, self.tractions.slide) = (along, across, 0.0);
+        self.place_shear();
+        let (places, force) = self.slipping_across();
+        self.across.powers = self.powers_at(&places).map(|power| total(&power, &force));
+    }
+
+    /// Takes all shear away, but its places.
+    fn release_points(&mut self) {
+        let none = Arch { count: COUNT, terms: [0.0; TERMS], ..self.tractions.pressure };
+        (self.tractions.stick, self.tractions.lateral, self.tractions.slide) = (none, none, 0.0);
+        self.across.powers = Default::default();
+        self.slide_all();
+    }
+}
