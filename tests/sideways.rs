@@ -6,6 +6,7 @@ use half_spaces::{FRICTION, HalfSpaces, LOAD, Lines, SPEED, formula, number, num
 use serde_json::Value as Json;
 use wheelrail::contact::{Friction, RigidMotion, Spin};
 use wheelrail::multistep::TimeDerivative;
+use wheelrail::patch::rows::{self, PatchRow};
 
 /// Mean of the half axes of all patches of the reference \[m].
 const MEAN_AXIS: f64 = 6e-3;
@@ -83,5 +84,77 @@ fn creepage_and_spin_that_jump_give_the_forces_of_contact() {
             }
         }
         println!("{}: {worst:.4?}", run["name"]);
+    }
+}
+
+/// Where there is neither lateral creepage nor spin the patch is the longitudinal one, but for the tractions across by which
+/// lines displace each other.
+#[test]
+fn without_lateral_creepage_and_spin_forces_are_those_of_the_longitudinal_patch() {
+    for aspect in [0.5, 1.0, 2.0] {
+        let (along, both) = (HalfSpaces::new(aspect, 7), HalfSpaces::sideways(aspect, 7));
+        let difference = |xi: f64| {
+            let [x, ..] = forces(&both, &steady(&both, [xi, 0.0, 0.0]));
+            x - along.utilisation(LOAD, &along.steady(xi))
+        };
+        let errors: Vec<_> = [-1e-4, -5e-4, -1e-3, -2e-3, -4e-3].map(difference).to_vec();
+        println!("{aspect}: {errors:+.5?}");
+        assert!(errors.iter().all(|error| error.abs() < 2e-3));
+    }
+}
+
+/// Kalker's coefficients for ν = 0.3 of CONTACT on 61 × 41 elements, secants up to 1 % below the slope at rest: C₁₁, C₂₂, C₂₃
+/// and C₃₃.
+#[test]
+fn creep_coefficients_of_small_creepages_and_spins_are_those_of_kalker() {
+    for (aspect, kalker) in KALKER {
+        let spaces = HalfSpaces::sideways(aspect, 9);
+        let wheelrail::patch::Ellipse { a, b, .. } = spaces.hertz.under(LOAD);
+        let (rigidity, c) = (half_spaces::SHEAR_MODULUS * a * b, (a * b).sqrt());
+        let creepage = 0.02 * FRICTION * LOAD / (rigidity * kalker[0]);
+        let most = FRICTION * LOAD;
+        let found = [[-creepage, 0.0, 0.0], [0.0, -creepage, 0.0], [0.0, 0.0, 0.02]]
+            .map(|slip| forces(&spaces, &steady(&spaces, slip)).map(|force| most * force / rigidity));
+        let spin = 0.02 * c;
+        let coefficients = [
+            found[0][0] / creepage,
+            found[1][1] / creepage,
+            -found[2][1] / spin,
+            -found[2][2] * MEAN_AXIS / (spin * c),
+        ];
+        let errors: Vec<_> = coefficients.iter().zip(kalker).map(|(found, table)| found / table - 1.0).collect();
+        println!("{aspect}: {coefficients:.4?} {errors:+.4?}");
+        assert!(errors.iter().all(|error| error.abs() < 0.02), "{aspect}");
+    }
+}
+
+/// Half axis along over that across, C₁₁, C₂₂, C₂₃ and C₃₃.
+const KALKER: [(f64, [f64; 4]); 3] = [
+    (0.5, [3.8057, 3.0268, 0.95694, 1.9775]),
+    (1.0, [4.2769, 3.7151, 1.5055, 1.1917]),
+    (2.0, [5.2573, 5.0197, 2.7092, 0.83142]),
+];
+
+/// Wheel S1002 on rail UIC60, with the spin of their conicity; forces there act on the rail.
+#[test]
+fn real_patches_with_their_spin_have_the_forces_of_contact() {
+    for patch in reference()["real"].as_array().unwrap() {
+        let [position, half_length, line_load] = ["position", "half_length", "line_load"].map(|name| numbers(&patch[name]));
+        let widths = rows::widths(&position);
+        let row = |i: usize| PatchRow {
+            position: 1e-3 * position[i],
+            width: 1e-3 * widths[i],
+            half_length: 1e-3 * half_length[i],
+            line_load: 1e3 * line_load[i],
+            gap: 0.0,
+        };
+        for lines in [7, 13] {
+            let spaces = HalfSpaces::of_rows((0..position.len()).map(row).collect(), 0.46, lines);
+            for case in patch["cases"].as_array().unwrap() {
+                let [xi, phi, along, across] = [0, 1, 2, 3].map(|k| number(&case[k]));
+                let [x, z, _] = forces(&spaces, &steady(&spaces, [xi, 0.0, phi]));
+                println!("{} {lines}: {:+.4} of {along:.4}, {:+.4} of {across:.4}", patch["y_mm"], -x - along, -z - across);
+            }
+        }
     }
 }

@@ -138,4 +138,6 @@ pub struct ContactScratch {
     pub active_set: ActiveSetScratch,
     /// Equations of all lines on series.
     pub series: DenseSystem,
+    /// Steps of Newton's method that the last contact with lateral tractions took.
+    pub newton_steps: usize,
 }

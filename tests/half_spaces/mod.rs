@@ -14,11 +14,12 @@ use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::line::kernel::logarithms;
 use wheelrail::contact::series::SeriesSolver;
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactSolver, ContactState, Friction, LineLayout, PatchLayout, PatchMaterial, Ports,
+    AxisDrive, ContactError, ContactScratch, ContactSolver, ContactState, Friction, LineLayout, PatchLayout, PatchMaterial, Ports,
     RigidMotion, Spin,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::patch::Hertz;
+use wheelrail::patch::rows::{PatchRow, equivalent_ellipse};
 
 /// Friction coefficient [1].
 pub const FRICTION: f64 = 0.3;
@@ -41,6 +42,11 @@ const ROOM: f64 = 1.2;
 
 fn modulus() -> f64 {
     contact_modulus(YOUNG, NU)
+}
+
+fn material() -> PatchMaterial {
+    let half_plane = HalfPlane { kernel: 1.0 / (PI * modulus()), coupling: (1.0 - 2.0 * NU) * (1.0 + NU) / YOUNG };
+    PatchMaterial { half_plane, shear_modulus: SHEAR_MODULUS, poissons_ratio: NU }
 }
 
 pub fn reference() -> Json {
@@ -95,6 +101,14 @@ impl HalfSpaces {
         Self { patch: along.patch.sideways(), ..along }
     }
 
+    /// Rows of a real patch that takes lateral creepage and spin, as lines.
+    pub fn of_rows(rows: Vec<PatchRow>, radius: f64, lines: usize) -> Self {
+        let shapes = [equivalent_ellipse(&rows).unwrap()];
+        let other = Self::new(1.0, 1);
+        let patch = PatchLayout::rows(rows, &shapes, material(), lines, radius, WIDTH).sideways();
+        Self { patch, radius, ..other }
+    }
+
     /// Beside a grid of a number of `nodes` per half axis along the direction of rolling.
     pub fn with_grid(aspect: f64, lines: usize, nodes: u32) -> Self {
         Self::build(aspect, lines, nodes, |grid| {
@@ -114,13 +128,11 @@ impl HalfSpaces {
         let unit = lateral(ratio).under(LOAD);
         let radius = (MEAN_AXIS * MEAN_AXIS / (unit.a * unit.b)).powf(1.5);
         let hertz = Hertz::new(radius, radius * ratio, modulus());
-        let half_plane = HalfPlane { kernel: 1.0 / (PI * modulus()), coupling: (1.0 - 2.0 * NU) * (1.0 + NU) / YOUNG };
-        let material = PatchMaterial { half_plane, shear_modulus: SHEAR_MODULUS, poissons_ratio: NU };
         let (spacing, side) = (hertz.under(LOAD).a / f64::from(nodes), (ROOM * f64::from(nodes)).ceil() as i32);
         let grid = ContactGrid::uniform((-side..=side).map(|i| f64::from(i) * spacing).collect(), spacing, 3);
         Self {
             solver: solver(&grid),
-            patch: PatchLayout::ellipse(&hertz, radius, material, lines, WIDTH, LOAD),
+            patch: PatchLayout::ellipse(&hertz, radius, material(), lines, WIDTH, LOAD),
             hertz,
             radius,
             bodies: [SMOOTH, grid.ports()].map(RigidBodies::new),
@@ -172,6 +184,19 @@ impl HalfSpaces {
         laws: (TimeDerivative, Friction),
         start: &Lines,
     ) -> Result<Lines, ContactError> {
+        self.solve_with(load, motion, spin, laws, start, &mut ContactScratch::default())
+    }
+
+    /// [`Self::solve_sideways`] with the memory of the solver. Without a load the wheel is in the air.
+    pub fn solve_with(
+        &self,
+        load: f64,
+        motion: [RigidMotion; 3],
+        spin: Spin,
+        laws: (TimeDerivative, Friction),
+        start: &Lines,
+        scratch: &mut ContactScratch,
+    ) -> Result<Lines, ContactError> {
         let layout = self.layout(load);
         let [smooth, nodes] = &self.bodies;
         let (bodies, logarithms) = match start.iter().all(|line| line.ports == Ports::Smooth) {
@@ -181,7 +206,7 @@ impl HalfSpaces {
         let load = [load / WIDTH, LOAD / WIDTH];
         let (lines, flexibility) = ((&layout[..], logarithms), Some(&**self.patch.flexibility()));
         let step = Step { radius: self.radius, lines, flexibility, load, motion, spin, laws };
-        bodies.solve(&*self.solver, &step, start)
+        bodies.solve_with(&*self.solver, &step, start, scratch)
     }
 
     /// Motions with a prescribed creepage.

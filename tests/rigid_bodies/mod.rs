@@ -13,6 +13,8 @@ use wheelrail::surface::{Flattening, Placement, Surfaces};
 
 /// Displacement components at the points of smooth bodies.
 pub const SMOOTH: usize = 10;
+/// Height of a hub without load [m].
+const IN_THE_AIR: f64 = 1e-3;
 /// Rigid motions of the wheel.
 const AXES: usize = Axis::COUNT;
 
@@ -70,6 +72,17 @@ impl RigidBodies {
         step: &Step,
         start: &[ContactState],
     ) -> Result<Vec<ContactState>, ContactError> {
+        self.solve_with(solver, step, start, &mut ContactScratch::default())
+    }
+
+    /// [`Self::solve`] with the memory of a solver. Without a load the hub is held so high that nothing touches.
+    pub fn solve_with(
+        &self,
+        solver: &dyn ContactSolver,
+        step: &Step,
+        start: &[ContactState],
+        scratch: &mut ContactScratch,
+    ) -> Result<Vec<ContactState>, ContactError> {
         let Step {
             radius,
             lines: (layout, logarithms),
@@ -79,7 +92,10 @@ impl RigidBodies {
             laws: (time, friction),
             flexibility,
         } = *step;
-        let hub = RigidMotion { drive: AxisDrive::Free { load: -load }, ..RigidMotion::held(0.0, 0.0) };
+        let hub = match load > 0.0 {
+            true => RigidMotion { drive: AxisDrive::Free { load: -load }, ..RigidMotion::held(0.0, 0.0) },
+            false => RigidMotion::held(IN_THE_AIR, 0.0),
+        };
         let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(radius));
         let line = |(line, layout): (usize, &LineLayout)| LineProblem {
             share: layout.share,
@@ -113,7 +129,7 @@ impl RigidBodies {
         let mut found = start.to_vec();
         let before: Vec<_> = start.iter().collect();
         let mut after: Vec<_> = found.iter_mut().collect();
-        solver.solve(&problem, &before, &mut after, &mut ContactScratch::default())?;
+        solver.solve(&problem, &before, &mut after, scratch)?;
         Ok(found)
     }
 }

@@ -1,10 +1,10 @@
 //! Shear of one line along and across, at the points of [`super::points`]: its vector stays within a disc.
 //!
 //! Of the shear q, the slip s and the radius g of the disc, `q = P(q − r s)` says Coulomb's law for any `r > 0`, with the
-//! projection P on the disc. Slips stand half a point upstream of their shear, where they decide what sticks. Where it
-//! slips, the direction is that of the slip at the place of the shear itself: in two directions both differ, and with the
-//! slip upstream friction would point to where it was. Both are one where slip begins. A step of Newton's method makes
-//! this law linear: what sticks has no slip, and what slips turns along the circle.
+//! projection P on the disc. Slips stand half a point upstream of their shear. In two directions a shear that slips would
+//! point against the slip there, and not where it stands: so its slip is corrected once by the difference of both in the
+//! solution without. A step of Newton's method makes the law linear: what sticks has no slip, and what slips turns along
+//! the circle.
 //! Theory: `docs/theory/patch-contact.md`, section 3.
 
 use super::across::Vectors;
@@ -24,8 +24,11 @@ use std::f64::consts::PI;
 pub const SLIPS: usize = 2 * POINTS;
 /// Unknowns at most.
 const UNKNOWNS: usize = 2 * COUNT;
-/// Slip times r over the radius of the disc at which its direction is half that of the slip upstream \[1].
+/// Slip times r over the radius of the disc at which half of the correction counts \[1].
 const BEGINNING: f64 = 0.05;
+/// Shear over friction that is as large \[1], and the slip times r over it that is asked for there in a search.
+const AT_LIMIT: f64 = 1.0 - 1e-9;
+const ASKED: f64 = 1e-2;
 
 /// Slips at places that belong to the points.
 struct SlipRows {
@@ -52,15 +55,8 @@ pub struct ConeProblem {
 #[derive(Clone, Copy)]
 enum PointState {
     Stick,
-    /// `a` and `b`: how the slips upstream and in place count in that along the circle; `constant`: the rest of it [m/s];
-    /// `turn`: how much of a turn of the shear is left over, over r [m/s/Pa].
-    Slip {
-        direction: [f64; 2],
-        a: [f64; 2],
-        b: [f64; 2],
-        constant: f64,
-        turn: f64,
-    },
+    /// Slip against `direction`; `turn`: how much of a turn of the shear is left over, over r [m/s/Pa].
+    Slip { direction: [f64; 2], turn: f64 },
 }
 
 /// What friction says of all points of a line.
@@ -147,46 +143,66 @@ impl ConeProblem {
         within
     }
 
+    /// Slips that a shear asks for: none where it sticks, and a little against it where it is as large as friction; less
+    /// those that it has with the slip by all else as polynomials [m/s].
+    pub fn missing(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
+        let slips = self.rows[0].slips(shear, others);
+        std::array::from_fn(|c| {
+            std::array::from_fn(|i| match libm::hypot(shear[0][i], shear[1][i]) >= AT_LIMIT * self.bears[i] {
+                true => -ASKED * self.least(i) * shear[c][i] - slips[c][i],
+                false => -slips[c][i],
+            })
+        })
+    }
+
+    /// Correction of the slip by the difference between that in the place of the shear and that upstream, where a solution
+    /// slips [m/s].
+    pub fn correction(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
+        let [upstream, in_place] = self.rows.each_ref().map(|rows| rows.slips(shear, others));
+        let weight = |i: usize| {
+            let ahead = libm::hypot(upstream[0][i], upstream[1][i]) / self.least(i);
+            let sum = ahead + BEGINNING * self.bears[i];
+            if sum > 0.0 { ahead / sum } else { 0.0 }
+        };
+        let weights: [f64; COUNT] = std::array::from_fn(weight);
+        std::array::from_fn(|c| std::array::from_fn(|i| weights[i] * (in_place[c][i] - upstream[c][i])))
+    }
+
+    /// Adds a share of given slips to the known ones.
+    pub fn add(&mut self, share: f64, slips: &Vectors) {
+        let known = self.rows[0].known.as_flattened_mut();
+        known.iter_mut().zip(slips.as_flattened()).for_each(|(known, slip)| *known += share * slip);
+    }
+
+    /// Change of the slip of a point by its shear [m/s/Pa], the larger one of both directions.
+    fn least(&self, i: usize) -> f64 {
+        self.rows[0].by_shear.iter().map(|by| by[i][i].abs()).fold(f64::MIN_POSITIVE, f64::max)
+    }
+
     /// What friction says of a shear and the slip by all else as polynomials.
     pub fn verdict(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Verdict {
-        let [upstream, in_place] = self.rows.each_ref().map(|rows| rows.slips(shear, others));
+        let slips = self.rows[0].slips(shear, others);
         let (mut points, mut largest, mut squares) = ([PointState::Stick; COUNT], 0.0_f64, 0.0);
         for (i, point) in points.iter_mut().enumerate() {
-            let pick = |values: &Vectors| [values[0][i], values[1][i]];
-            let (state, violation) = self.judge(i, pick(shear), [pick(&upstream), pick(&in_place)]);
+            let (state, violation) = self.judge(i, [shear[0][i], shear[1][i]], [slips[0][i], slips[1][i]]);
             let violation = violation / self.most.max(f64::MIN_POSITIVE);
             (*point, largest, squares) = (state, largest.max(violation), squares + violation * violation);
         }
         Verdict { points, largest, squares }
     }
 
-    /// What friction says of a point with the shear q and the slips `s` upstream and in place, and its violation \[Pa].
-    fn judge(&self, i: usize, q: [f64; 2], [s, there]: [[f64; 2]; 2]) -> (PointState, f64) {
-        let bears = self.bears[i];
-        let least = self.rows[0].by_shear.iter().map(|by| by[i][i].abs()).fold(f64::MIN_POSITIVE, f64::max);
-        let length = |v: [f64; 2]| libm::hypot(v[0], v[1]);
-        let (speed, r) = (length(s), 1.0 / least);
-        if length([q[0] - r * s[0], q[1] - r * s[1]]) <= bears {
-            return (PointState::Stick, r * speed);
+    /// What friction says of a point with the shear q and the slip s, and its violation \[Pa].
+    fn judge(&self, i: usize, q: [f64; 2], s: [f64; 2]) -> (PointState, f64) {
+        let (bears, least) = (self.bears[i], self.least(i));
+        let held = [0, 1].map(|c| q[c] - s[c] / least);
+        let size = libm::hypot(held[0], held[1]);
+        if size <= bears {
+            return (PointState::Stick, libm::hypot(s[0], s[1]) / least);
         }
-        let (beginning, ahead) = (BEGINNING * bears, r * speed);
-        let sum = (ahead + beginning).max(f64::MIN_POSITIVE);
-        let (weight, change) = (ahead / sum, beginning * r / (sum * sum));
-        let between = [there[0] - s[0], there[1] - s[1]];
-        let slip = [s[0] + weight * between[0], s[1] + weight * between[1]];
-        let held = [q[0] - r * slip[0], q[1] - r * slip[1]];
-        let size = length(held).max(f64::MIN_POSITIVE);
-        let direction = held.map(|z| z / size);
-        let tangent = [-direction[1], direction[0]];
-        let dot = |v: [f64; 2], w: [f64; 2]| v[0] * w[0] + v[1] * w[1];
-        let grows = if speed > 0.0 { change * dot(tangent, between) / speed } else { 0.0 };
-        let a = [0, 1].map(|c| (1.0 - weight) * tangent[c] + grows * s[c]);
-        let b = tangent.map(|t| weight * t);
-        let constant = dot(tangent, slip) - dot(a, s) - dot(b, there);
-        let share = (bears / size).min(1.0);
+        let (direction, share) = (held.map(|z| z / size), bears / size);
         let turn = if share > 0.0 { (1.0 - share) / share * least } else { f64::INFINITY };
-        let violation = length([q[0] - bears * direction[0], q[1] - bears * direction[1]]);
-        (PointState::Slip { direction, a, b, constant, turn }, violation)
+        let violation = libm::hypot(q[0] - bears * direction[0], q[1] - bears * direction[1]);
+        (PointState::Slip { direction, turn }, violation)
     }
 
     /// Shear in the law as it is linear about a verdict; `None`: the equations are singular.
@@ -198,24 +214,18 @@ impl ConeProblem {
             })
         });
         let unknowns = Unknown::of(verdict);
-        let slips = self.rows.each_ref().map(|rows| rows.slips(&bound, &[0.0; SLIPS]));
-        let count = unknowns.len();
+        let (rows, count) = (&self.rows[0], unknowns.len());
+        let slips = rows.slips(&bound, &[0.0; SLIPS]);
         let mut columns = [[0.0; UNKNOWNS]; UNKNOWNS + 1 + SLIPS];
-        for (row, unknown) in unknowns.iter().enumerate() {
-            let Unknown { point: i, a, b, constant, turn, .. } = *unknown;
+        for (row, Unknown { point: i, along, turn }) in unknowns.iter().enumerate() {
             for (column, by) in columns.iter_mut().zip(&unknowns) {
-                let part = |c: usize| {
-                    let [upstream, in_place] = self.rows.each_ref().map(|rows| rows.by_shear[c][by.point][i]);
-                    by.along[c] * (a[c] * upstream + b[c] * in_place)
-                };
+                let part = |c: usize| along[c] * by.along[c] * rows.by_shear[c][by.point][*i];
                 column[row] = part(0) + part(1);
             }
             columns[row][row] += turn;
-            let part = |c: usize| a[c] * slips[0][c][i] + b[c] * slips[1][c][i];
-            columns[count][row] = -(constant + part(0) + part(1));
+            columns[count][row] = -(along[0] * slips[0][*i] + along[1] * slips[1][*i]);
             for (k, column) in columns[count + 1..].iter_mut().take(SLIPS).enumerate() {
-                let [upstream, in_place] = self.rows.each_ref().map(|rows| rows.powers[k % POINTS][i]);
-                column[row] = a[k / POINTS] * upstream + b[k / POINTS] * in_place;
+                column[row] = along[k / POINTS] * rows.powers[k % POINTS][*i];
             }
         }
         if !eliminate(&mut columns[..count + 1 + SLIPS], count) {
@@ -240,9 +250,6 @@ impl ConeProblem {
 struct Unknown {
     point: usize,
     along: [f64; 2],
-    a: [f64; 2],
-    b: [f64; 2],
-    constant: f64,
     turn: f64,
 }
 
@@ -252,17 +259,12 @@ impl Unknown {
         let mut all = Vec::with_capacity(UNKNOWNS);
         for (point, state) in verdict.points.iter().enumerate() {
             match *state {
-                PointState::Stick => all.extend([[1.0, 0.0], [0.0, 1.0]].map(|along| Self {
-                    point,
-                    along,
-                    a: along,
-                    b: [0.0; 2],
-                    constant: 0.0,
-                    turn: 0.0,
-                })),
+                PointState::Stick => {
+                    all.extend([[1.0, 0.0], [0.0, 1.0]].map(|along| Self { point, along, turn: 0.0 }));
+                }
                 PointState::Slip { turn, .. } if !turn.is_finite() => {}
-                PointState::Slip { direction, a, b, constant, turn } => {
-                    all.push(Self { point, along: [-direction[1], direction[0]], a, b, constant, turn });
+                PointState::Slip { direction, turn } => {
+                    all.push(Self { point, along: [-direction[1], direction[0]], turn });
                 }
             }
         }

@@ -23,6 +23,9 @@ const WHOLE: usize = 12;
 const SEARCHED: usize = 60;
 /// Share of the promised fall of the violations that a step has to keep, and the shortest step \[1].
 const KEPT: f64 = 0.1;
+/// Violation of friction that ends searches on the way \[1], and parts of a path.
+const ROUGH: f64 = 1e-6;
+const MOST_PARTS: usize = 200;
 const SHORTEST: f64 = 0.01;
 
 /// Finds tractions and motions of lines that slip along and across.
@@ -42,17 +45,31 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     Err(ContactError::Unsuited { reason: "normal contact and that of points along and across do not settle" })
 }
 
-/// Shear of all lines, and the linear problem about it.
+/// Ways to search for a first shear.
+#[derive(Clone, Copy)]
+enum Search {
+    Whole,
+    Along,
+    Path,
+}
+
+/// Shears, slips by all but the known ones, and motions.
+type Begun = (Vec<Vectors>, Vec<[f64; SLIPS]>, PerAxis<f64>);
+
+/// Shear of all lines: without the correction of the slips, and with it.
 struct ConeSearch {
+    uncorrected: Vec<Vectors>,
     shears: Vec<Vectors>,
     states: Vec<[i8; COUNT]>,
     /// Radius of the discs at the peak of the pressure to which the shears belong \[Pa].
     most: Vec<f64>,
+    /// True until a first correction has been found.
+    first: bool,
 }
 
 /// The tangential problem of all lines under given pressures, and where the search is in it.
 struct Newton<'a> {
-    problems: &'a [ConeProblem],
+    problems: &'a mut [ConeProblem],
     /// Motions of the known slip.
     base: PerAxis<f64>,
     shears: Vec<Vectors>,
@@ -72,7 +89,7 @@ impl ConeSearch {
         };
         let shears: Vec<_> = contact.lines.iter().map(shear).collect();
         let most = contact.lines.iter().map(|line| line.before_friction * line.tractions.pressure.terms[0]);
-        Self { shears, states: vec![[0; COUNT]; contact.lines.len()], most: most.collect() }
+        Self { uncorrected: shears.clone(), shears, states: vec![[0; COUNT]; contact.lines.len()], most: most.collect(), first: true }
     }
 
     /// Gives all lines the tractions of the search on their present patches.
@@ -88,17 +105,26 @@ impl ConeSearch {
     /// Finds shear and motions under the present pressures, the last change of which was `normal`; returns the largest
     /// violation of friction before.
     fn advance(&mut self, contact: &mut SeriesContact, normal: f64) -> Result<f64, ContactError> {
-        let problems = contact.cone_problems();
-        for (((line, problem), shear), most) in
-            contact.lines.iter().zip(&problems).zip(&mut self.shears).zip(&mut self.most)
-        {
-            let now = line.friction * line.tractions.pressure.terms[0];
-            let ratio = if *most > 0.0 { now / *most } else { 1.0 };
-            (*shear, *most) = (problem.within(shear, ratio), now);
+        let mut problems = contact.cone_problems();
+        for (k, (line, problem)) in contact.lines.iter().zip(&problems).enumerate() {
+            let (now, most) = (line.friction * line.tractions.pressure.terms[0], self.most[k]);
+            let ratio = if most > 0.0 { now / most } else { 1.0 };
+            for shear in [&mut self.uncorrected[k], &mut self.shears[k]] {
+                *shear = problem.within(shear, ratio);
+            }
+            self.most[k] = now;
         }
-        let mut newton = Newton::new(contact, &problems, &self.shears);
-        let violation = newton.largest();
+        let first = std::mem::replace(&mut self.first, false);
         let tolerance = (SHARE * normal).clamp(TOLERANCE, 1e-3);
+        let mut newton = Newton::new(contact, &mut problems, &self.uncorrected);
+        let mut violation = newton.largest();
+        newton.run(contact, tolerance)?;
+        self.uncorrected.clone_from(&newton.shears);
+        newton.correct();
+        if !first {
+            newton.take(contact, &self.shears);
+        }
+        violation = violation.max(newton.largest());
         newton.run(contact, tolerance)?;
         self.shears = newton.shears;
         self.states = newton.verdicts.iter().map(Verdict::states).collect();
@@ -120,8 +146,17 @@ impl ConeSearch {
 }
 
 impl<'a> Newton<'a> {
-    fn new(contact: &SeriesContact, problems: &'a [ConeProblem], shears: &[Vectors]) -> Self {
-        let moments: Vec<_> = problems.iter().zip(shears).map(|(problem, shear)| problem.moments(shear)).collect();
+    fn new(contact: &mut SeriesContact, problems: &'a mut [ConeProblem], shears: &[Vectors]) -> Self {
+        let rigid = contact.lines[0].rigid;
+        let mut newton = Self { problems, base: rigid, shears: vec![], slips: vec![], rigid, verdicts: vec![] };
+        newton.take(contact, shears);
+        newton
+    }
+
+    /// Goes on from given shears, with the motions of the known slip.
+    fn take(&mut self, contact: &mut SeriesContact, shears: &[Vectors]) {
+        contact.lines.iter_mut().for_each(|line| line.rigid = self.base);
+        let moments: Vec<_> = self.problems.iter().zip(shears).map(|(problem, shear)| problem.moments(shear)).collect();
         let slips = |at: usize| {
             let mut sum = [0.0; SLIPS];
             for (by, moments) in moments.iter().enumerate() {
@@ -130,11 +165,9 @@ impl<'a> Newton<'a> {
             }
             sum
         };
-        let rigid = contact.lines[0].rigid;
-        let (shears, slips) = (shears.to_vec(), (0..problems.len()).map(slips).collect());
-        let mut newton = Self { problems, base: rigid, shears, slips, rigid, verdicts: Vec::new() };
-        newton.verdicts = newton.judge(&newton.shears, &newton.slips);
-        newton
+        self.slips = (0..self.problems.len()).map(slips).collect();
+        (self.shears, self.rigid) = (shears.to_vec(), self.base);
+        self.verdicts = self.judge(&self.shears, &self.slips);
     }
 
     fn judge(&self, shears: &[Vectors], slips: &[[f64; SLIPS]]) -> Vec<Verdict> {
@@ -146,24 +179,77 @@ impl<'a> Newton<'a> {
         self.verdicts.iter().map(|verdict| verdict.largest).fold(0.0, f64::max)
     }
 
-    /// Goes on until friction is violated by no more than the `tolerance`; first by whole steps, then with a search.
+    /// Goes on until friction is violated by no more than the `tolerance`: by whole steps, or else with a search along
+    /// steps, or on a path of the data from the present shear on.
     fn run(&mut self, contact: &mut SeriesContact, tolerance: f64) -> Result<(), ContactError> {
-        let (shears, slips) = (self.shears.clone(), self.slips.clone());
-        if self.steps(contact, tolerance, WHOLE, false) {
-            return Ok(());
+        let begun = (self.shears.clone(), self.slips.clone(), self.rigid);
+        for search in [Search::Whole, Search::Along, Search::Path] {
+            let found = match search {
+                Search::Whole => self.steps(contact, tolerance, WHOLE, false),
+                Search::Along => self.steps(contact, tolerance, SEARCHED, true),
+                Search::Path => self.follow(contact) && self.steps(contact, tolerance, SEARCHED, true),
+            };
+            if found {
+                return Ok(());
+            }
+            self.restart(&begun);
         }
-        (self.shears, self.slips, self.rigid) = (shears, slips, self.base);
+        Err(ContactError::Unsuited { reason: "the shear of points along and across is not found" })
+    }
+
+    /// Begins anew with shears, slips and motions.
+    fn restart(&mut self, begun: &Begun) {
+        (self.shears, self.slips, self.rigid) = begun.clone();
         self.verdicts = self.judge(&self.shears, &self.slips);
-        match self.steps(contact, tolerance, SEARCHED, true) {
-            true => Ok(()),
-            false => Err(ContactError::Unsuited { reason: "the shear of points along and across is not found" }),
+    }
+
+    /// Corrects the slips, once its shear is found, by those in the places of the shear.
+    fn correct(&mut self) {
+        for ((problem, shear), slips) in self.problems.iter_mut().zip(&self.shears).zip(&self.slips) {
+            let correction = problem.correction(shear, slips);
+            problem.add(1.0, &correction);
         }
+        self.verdicts = self.judge(&self.shears, &self.slips);
+    }
+
+    /// Follows the solutions of slips that change from those whose solution is the present shear to the known ones; true if
+    /// it arrives.
+    fn follow(&mut self, contact: &mut SeriesContact) -> bool {
+        let missing = |((problem, shear), slips): ((&ConeProblem, &Vectors), &[f64; SLIPS])| problem.missing(shear, slips);
+        let missing: Vec<_> = self.problems.iter().zip(&self.shears).zip(&self.slips).map(missing).collect();
+        let add = |newton: &mut Self, share: f64| {
+            newton.problems.iter_mut().zip(&missing).for_each(|(problem, slips)| problem.add(share, slips));
+        };
+        add(self, 1.0);
+        let (mut left, mut part) = (1.0_f64, 0.25_f64);
+        for _ in 0..MOST_PARTS {
+            let begun = (self.shears.clone(), self.slips.clone(), self.rigid);
+            let next = (left - part).max(0.0);
+            add(self, next - left);
+            self.restart(&begun);
+            if self.steps(contact, ROUGH, WHOLE, false) {
+                (left, part) = (next, 1.7 * part);
+                if left == 0.0 {
+                    return true;
+                }
+            } else {
+                add(self, left - next);
+                self.restart(&begun);
+                part *= 0.4;
+            }
+        }
+        add(self, -left);
+        false
     }
 
     /// True if at most `most` steps were enough.
     fn steps(&mut self, contact: &mut SeriesContact, tolerance: f64, most: usize, search: bool) -> bool {
         let mut moved = contact.free_axes().next().is_some();
-        for _ in 0..most {
+        for it in 0..most {
+            if std::env::var("DBG").is_ok() {
+                let sticks: Vec<usize> = self.verdicts.iter().map(|v| v.states().iter().filter(|s| **s == 0).count()).collect();
+                eprintln!("  {search} {it} largest {:.2e} norm {:.2e} stick {sticks:?}", self.largest(), self.verdicts.iter().map(|v| v.squares).sum::<f64>().sqrt());
+            }
             if self.largest() <= tolerance && !moved {
                 return true;
             }
@@ -177,6 +263,7 @@ impl<'a> Newton<'a> {
 
     /// One step; `None`: there is none.
     fn step(&mut self, contact: &mut SeriesContact, search: bool) -> Option<()> {
+        contact.newton_steps += 1;
         let answers = self.problems.iter().zip(&self.verdicts).map(|(problem, verdict)| problem.answer(verdict));
         let answers: Vec<_> = answers.collect();
         if answers.iter().any(Option::is_none) {

@@ -34,6 +34,8 @@ pub struct SeriesContact<'a> {
     relaid: Relaid<'a>,
     /// Equations of all lines.
     pub system: DenseSystem,
+    /// Steps of Newton's method so far.
+    pub newton_steps: usize,
 }
 
 impl<'a> SeriesContact<'a> {
@@ -42,7 +44,7 @@ impl<'a> SeriesContact<'a> {
         relaid.problem.layouts.inspect(|layouts| layouts.begin());
         let (pulls, moments, system) = Default::default();
         let by_powers = displaced_by_powers(&lines[0].problem.line.bodies, &lines[0].constants.points);
-        let mut contact = Self { lines, rigid, pulls, moments, by_powers, relaid, system };
+        let mut contact = Self { lines, rigid, pulls, moments, by_powers, relaid, system, newton_steps: 0 };
         contact.share_pulls();
         contact
     }

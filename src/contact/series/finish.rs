@@ -24,7 +24,7 @@ fn energy(line: &SeriesLine) -> f64 {
     let stuck = total(&line.stuck.force, &both);
     // Pulls do little beside friction: of the tangential part the mean under the pressure is enough.
     let along = line.over_pressure(|layers, _| less(&layers.along[0], &layers.along[1]));
-    let along = along * line.resultant().travel / line.load();
+    let along = if line.load() > 0.0 { along * line.resultant().travel / line.load() } else { 0.0 };
     let lift = line.over_pressure(|layers, x| less(&layers.wheel.lift.at(x), &layers.rail.lift.at(x)));
     let LineKernel { tangential, normal, .. } = line.problem.line.kernel;
     let pressing = normal.factor * (pressed - normal.reach * line.load().powi(2));
@@ -152,12 +152,16 @@ pub(super) fn finish(
     let [low, high] = line.tractions.pressure.ends();
     for patches in [&mut traction.edges, &mut traction.patches] {
         patches.clear();
-        patches.push(Interval { low, high });
+        if line.load() > 0.0 {
+            patches.push(Interval { low, high });
+        }
     }
     traction.stick_fraction = line.tractions.share();
     traction.yielding.overlap.clear();
     (traction.yielding.plastic_work, traction.yielding.share, traction.iterations) = (0.0, 0.0, 1);
     write_profiles(line, traction);
+    write_lateral_profiles(line, traction);
+    traction.pressure_max = line.tractions.pressure.peak();
     traction.friction.dissipation.scale_to(power, &traction.pressure);
     energy(line)
 }
@@ -207,6 +211,9 @@ fn write_profiles(line: &SeriesLine, traction: &mut Traction) {
     let Traction { pressure, shear, slip, friction: SolvedFriction { dissipation, .. }, .. } = traction;
     [&mut *pressure, shear, slip, dissipation].into_iter().for_each(Piecewise::clear);
     let ([low, high], part) = (line.tractions.pressure.ends(), line.slipping_ends());
+    if line.load() <= 0.0 {
+        return;
+    }
     let least = 1e-9 * (high - low);
     [&mut *pressure, shear, slip, dissipation].into_iter().for_each(|profile| profile.push(low, 0.0));
     let stretches = [(low, part[0], false), (part[0], part[1], true), (part[1], high, false)];
@@ -227,6 +234,4 @@ fn write_profiles(line: &SeriesLine, traction: &mut Traction) {
             dissipation.push(x, if line.is_sideways() { heat } else { heat.max(0.0) });
         }
     }
-    traction.pressure_max = line.tractions.pressure.peak();
-    write_lateral_profiles(line, traction);
 }

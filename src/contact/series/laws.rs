@@ -5,7 +5,7 @@ use super::cone_search;
 use super::constants::Constants;
 use super::contact::{Relaid, SeriesContact};
 use super::hot_layers::SeriesLayers;
-use super::pivoting;
+use super::{open, pivoting};
 use super::series_line::{SeriesLine, SeriesStart};
 use crate::axes::PerAxis;
 use crate::contact::brake::{self, BrakeState};
@@ -89,9 +89,15 @@ fn next(contact: &SeriesContact, problem: &ContactProblem, states: PerAxis<Brake
     })
 }
 
+/// Finds tractions along and across and motions, or motions without tractions where no line touches.
+fn sideways(contact: &mut SeriesContact) -> Result<(), ContactError> {
+    let Err(error) = cone_search::solve(contact) else { return Ok(()) };
+    if open::solve(contact)? { Ok(()) } else { Err(error) }
+}
+
 /// Finds tractions and motions, and the friction coefficients that the laws of all lines give to their slips.
 fn find(contact: &mut SeriesContact) -> Result<(), ContactError> {
-    let solve = if contact.lines[0].is_sideways() { cone_search::solve } else { pivoting::solve };
+    let solve = if contact.lines[0].is_sideways() { sideways } else { pivoting::solve };
     solve(contact)?;
     if !contact.lines.iter().any(|line| line.problem.line.friction.varies()) {
         return Ok(());

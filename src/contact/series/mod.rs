@@ -6,8 +6,9 @@
 //! share, [`normal`] solves the normal problem, [`slip`], [`stretch`] and [`together`] given stretches of stick with
 //! [`equations`], [`stick`] finds where slip begins, [`points`] and [`pivoting`] which points stick where slip is not
 //! one stretch in one direction, [`across`] has the lateral direction, [`cone`] and [`cone_search`] friction in both,
-//! [`laws`] the states of brakes and the friction coefficients, [`finish`] takes traction and power, and [`solver`] is
-//! the contact solver that says which contacts suit it. Theory: `docs/theory/patch-contact.md`, `docs/theory/lines.md`.
+//! [`open`] a wheel in the air, [`laws`] the states of brakes and the friction coefficients, [`finish`] takes traction
+//! and power, and [`solver`] is the contact solver that says which contacts suit it. Theory:
+//! `docs/theory/patch-contact.md`, `docs/theory/lines.md`.
 
 mod across;
 pub mod chebyshev;
@@ -21,6 +22,7 @@ mod finish;
 mod hot_layers;
 mod laws;
 mod normal;
+mod open;
 mod pivoting;
 mod places;
 mod points;

@@ -14,9 +14,9 @@ use std::f64::consts::PI;
 const LARGEST_FACTOR: f64 = 4.0;
 
 /// Gap in the middle of a line, and how it depends on loads.
-struct MiddleGap {
+pub struct MiddleGap {
     /// Gap \[m].
-    gap: f64,
+    pub gap: f64,
     /// Change of the gap by the load of the line, by its own flexibility [m/(N/m)].
     own: f64,
 }
@@ -26,7 +26,7 @@ impl SeriesLine<'_> {
     ///
     /// The gap stays closed where its slope vanishes. As a series in `T_n(t)` the slope without pressure gives the
     /// terms of the pressure one by one, `p_k = A_{k+1}/(2πκ)`; `A_0 = 0` is the condition for the middle of the patch.
-    fn shape_pressure(&mut self) -> Result<f64, ContactError> {
+    pub fn shape_pressure(&mut self) -> Result<f64, ContactError> {
         let Constants { tables, points, .. } = self.constants;
         let radius = self.problem.line.surfaces.radius;
         let gap = points.polynomial(&self.surface.gap());
@@ -58,7 +58,7 @@ impl SeriesLine<'_> {
     }
 
     /// Gap in the middle under the present load.
-    fn middle_gap(&self) -> MiddleGap {
+    pub fn middle_gap(&self) -> MiddleGap {
         let (pressure, kernel) = (&self.tractions.pressure, self.problem.line.kernel.normal);
         let at = pressure.centre;
         let values = self.constants.points.values(at);

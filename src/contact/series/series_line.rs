@@ -231,7 +231,11 @@ impl<'a> SeriesLine<'a> {
         // pressure.
         sum -= kernel.factor * total(&self.stuck.force, &self.stuck.logarithm);
         sum += kernel.factor * kernel.reach * self.load() * self.friction_force();
-        self.rim_angle = sum / arm;
+        // Without a load the middle of the places stands for its mean.
+        self.rim_angle = match arm > 0.0 {
+            true => sum / arm,
+            false => self.constants.points.polynomial(along).at(self.tractions.pressure.centre) / radius,
+        };
     }
 
     /// Tangential force on the wheel [N/m].

@@ -176,7 +176,9 @@ impl ContactSolver for SeriesSolver {
             found.history.copy_from(&start.history);
             found.ports = start.ports;
         }
-        laws::solve(&self.constants, problem, (&begun, &mut scratch.series), |contact| {
+        let ContactScratch { series, newton_steps, .. } = scratch;
+        laws::solve(&self.constants, problem, (&begun, series), |contact| {
+            *newton_steps = contact.newton_steps;
             for ((at, line), found) in contact.lines.iter().enumerate().zip(&mut *found) {
                 let ContactState { traction, history, energy, solver, .. } = &mut **found;
                 let SolverState::Series(state) = solver else { continue };
