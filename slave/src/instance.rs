@@ -101,7 +101,7 @@ pub trait ScalarAccess: Slave {
     }
 }
 
-/// A slave between `fmi2Instantiate` and `fmi2FreeInstance`: a model with its life, without a word of C.
+/// A slave between its instantiation and its release: a model with its life, without a word of C.
 ///
 /// Every refused call leaves the instance as it was, so a master may report the error and go on.
 pub struct Instance<S: Slave> {

@@ -11,6 +11,7 @@
 use super::units;
 use super::variable::{Access, Enumeration, Kind, Reference, Start, Variable};
 use crate::config::Config;
+use crate::config::retired::{self, Retired};
 use crate::simulation::{Drive, Inputs, Outputs, Read};
 use std::array::from_fn;
 use std::sync::OnceLock;
@@ -39,6 +40,13 @@ pub fn find(reference: Reference) -> Option<&'static Variable> {
     });
     let position = order.binary_search_by_key(&reference, |entry| entry.0).ok()?;
     Some(&table()[order[position].1])
+}
+
+/// The refusal of a value reference that no variable has: that of a retired parameter is refused by its name.
+pub fn no_such_variable(reference: Reference) -> String {
+    let unknown = || format!("value reference {reference} is unknown");
+    let named = |retired: &Retired| format!("value reference {reference}: {retired}");
+    retired::numbered(reference).map_or_else(unknown, named)
 }
 
 /// Row with the given name.

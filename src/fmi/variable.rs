@@ -6,6 +6,7 @@ use crate::simulation::{Drive, Inputs, OutputRow, Outputs, Read};
 
 pub use crate::config::value::{Enumeration, Kind, Value};
 pub use wheelrail_slave::Reference;
+use wheelrail_slave::Scalar;
 
 /// Place of the value of a variable. Parameters are fixed or tunable, inputs and real outputs continuous, the rest
 /// discrete.
@@ -77,6 +78,20 @@ impl Variable {
         }
     }
 
+    /// The elements of an array, whose references follow its own; a scalar itself.
+    pub fn elements(&self) -> Vec<Variable> {
+        let (Access::Output(output), Some(_)) = (self.access, self.dimension) else { return vec![*self] };
+        let element = |(point, &(name, description))| Variable {
+            reference: self.reference + 1 + point as Reference,
+            name,
+            dimension: None,
+            element: Some(point),
+            description,
+            ..*self
+        };
+        output.points.iter().enumerate().map(element).collect()
+    }
+
     /// Value of a parameter; `None` for other variables.
     pub fn parameter(&self, preset: &str, config: &Config) -> Option<Value> {
         match self.access {
@@ -141,5 +156,31 @@ impl Variable {
     /// Refuses a value of the wrong type, not finite or outside the declared range; the text names all three.
     pub fn check(&self, value: &Value) -> Result<(), String> {
         self.kind.check(self.name, value)
+    }
+}
+
+impl From<Scalar> for Value {
+    fn from(scalar: Scalar) -> Self {
+        match scalar {
+            Scalar::Real(value) => Value::Real(value),
+            Scalar::Integer(value) => Value::Integer(value),
+            Scalar::Boolean(value) => Value::Boolean(value),
+            Scalar::String(value) => Value::String(value),
+        }
+    }
+}
+
+/// Arrays are no scalars: their elements are.
+impl TryFrom<Value> for Scalar {
+    type Error = ();
+
+    fn try_from(value: Value) -> Result<Self, ()> {
+        match value {
+            Value::Real(value) => Ok(Scalar::Real(value)),
+            Value::Integer(value) => Ok(Scalar::Integer(value)),
+            Value::Boolean(value) => Ok(Scalar::Boolean(value)),
+            Value::String(value) => Ok(Scalar::String(value)),
+            Value::Reals(_) => Err(()),
+        }
     }
 }
