@@ -31,7 +31,9 @@ fn instantiation_with_wrong_arguments_gives_null_and_a_logged_reason() {
     refused(Arguments { intermediate: vec![201], ..Default::default() }, "requiredIntermediateVariables");
     assert_eq!(fmi3GetVersion().is_null(), false);
     let none = [
-        unsafe_free(|| fmi3InstantiateModelExchange(ptr::null(), ptr::null(), ptr::null(), 0, 0, ptr::null_mut(), None)),
+        unsafe_free(|| {
+            fmi3InstantiateModelExchange(ptr::null(), ptr::null(), ptr::null(), 0, 0, ptr::null_mut(), None)
+        }),
         unsafe_free(|| {
             fmi3InstantiateScheduledExecution(
                 ptr::null(),
@@ -124,11 +126,8 @@ fn a_discarded_step_leaves_the_wheel_where_it_was_and_the_run_goes_on() {
 #[test]
 fn warnings_come_only_where_logging_is_on_and_errors_always() {
     let warned = |logging: u8| {
-        let wheel = Wheel::try_new(&Arguments {
-            resources: Some("/nowhere/at/all".to_owned()),
-            logging,
-            ..Default::default()
-        });
+        let wheel =
+            Wheel::try_new(&Arguments { resources: Some("/nowhere/at/all".to_owned()), logging, ..Default::default() });
         let wheel = wheel.ok().unwrap();
         wheel.set_string("preset", "railway_dry");
         wheel.heard().into_iter().map(|(status, ..)| status).collect::<Vec<_>>()

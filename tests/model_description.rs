@@ -25,6 +25,9 @@ fn committed_file_is_the_generated_one() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription.xml");
     let committed = std::fs::read_to_string(path).unwrap();
     assert!(committed == model_description(Extent::Full).unwrap(), "run `wheelrail describe > modelDescription.xml`");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription3.xml");
+    let committed = std::fs::read_to_string(path).unwrap();
+    assert!(committed == Interface::Three.description().unwrap(), "run `make describe`");
 }
 
 #[test]

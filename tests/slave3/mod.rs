@@ -90,7 +90,8 @@ impl Wheel {
     pub fn try_new(arguments: &Arguments) -> Result<Wheel, Vec<Heard>> {
         let ear: Box<Ear> = Box::default();
         let texts = [arguments.name.map(c), arguments.token.as_deref().map(c), arguments.resources.as_deref().map(c)];
-        let [name, token, resources] = texts.each_ref().map(|text| text.as_ref().map_or(ptr::null(), |text| text.as_ptr()));
+        let [name, token, resources] =
+            texts.each_ref().map(|text| text.as_ref().map_or(ptr::null(), |text| text.as_ptr()));
         let instance = unsafe {
             fmi3InstantiateCoSimulation(
                 name,
@@ -286,8 +287,7 @@ impl Wheel {
     pub fn output_rates(&self, references: &[u32], orders: &[i32], size: usize) -> Result<Vec<f64>, Status> {
         let mut found = vec![f64::NAN; size];
         let (first, count, orders) = (references.as_ptr(), references.len(), orders.as_ptr());
-        let status =
-            unsafe { fmi3GetOutputDerivatives(self.instance, first, count, orders, found.as_mut_ptr(), size) };
+        let status = unsafe { fmi3GetOutputDerivatives(self.instance, first, count, orders, found.as_mut_ptr(), size) };
         if status == Status::Ok { Ok(found) } else { Err(status) }
     }
 }

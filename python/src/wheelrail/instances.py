@@ -7,12 +7,12 @@ FMI 3.0 has arrays where FMI 2.0 lists their elements, and one type for each siz
 from copy import copy
 from ctypes import c_double, c_int, c_uint
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import groupby
 
 import numpy as np
 from fmpy import fmi2, fmi3
 
+from .calls import callbacks, listener
 from .values import Refused
 
 TYPES = {"Float64": "Real", "Int32": "Integer"}  # names that differ between the versions
@@ -50,13 +50,11 @@ def scalars(description):
     return variables, places
 
 
-class Slave2(fmi2.FMU2Slave):
-    """An instance of FMI 2.0."""
+class FMU2Instance(fmi2.FMU2Slave):
+    """An instance of FMI 2.0. fmpy wants to know the version from the name of the class."""
 
     def start(self, log):
         """Makes the instance, whose messages go to the list `log`."""
-        from .calls import callbacks
-
         self.instantiate(callbacks=callbacks(log))
 
     def reader(self, sort, references):
@@ -83,7 +81,7 @@ class Plan:
         self.picked = [starts[place.reference] + place.index for place in places]
 
 
-class Slave3(fmi3.FMU3Slave):
+class FMU3Instance(fmi3.FMU3Slave):
     """An instance of FMI 3.0; `places` are those of `scalars`."""
 
     def __init__(self, places, **arguments):
@@ -92,8 +90,6 @@ class Slave3(fmi3.FMU3Slave):
 
     def start(self, log):
         """Makes the instance, whose messages go to the list `log`: as many as FMI 2.0 sends unasked."""
-        from .calls import listener
-
         self.instantiate(loggingOn=True, logMessage=listener(log))
         self.setDebugLogging(False, QUIET)
 
@@ -146,10 +142,6 @@ class Slave3(fmi3.FMU3Slave):
         found = super().getDirectionalDerivative(plan.rows, vKnown_ref, dvKnown, nSensitivity=plan.size)
         return [found[k] for k in plan.picked]
 
-    @cached_property
-    def _readers(self):
-        return {"Float64": self.fmi3GetFloat64, "Int32": self.fmi3GetInt32, "Enumeration": self.fmi3GetInt64, "Boolean": self.fmi3GetBoolean}
-
     def reader(self, sort, references):
         """A function that reads variables of one type at once, as an array."""
         by_type = {}
@@ -159,7 +151,8 @@ class Slave3(fmi3.FMU3Slave):
         for of_type, places in by_type.items():
             plan = self._plan([references[k] for k in places])
             rows, values = (c_uint * len(plan.rows))(*plan.rows), (CELLS[of_type] * plan.size)()
-            parts.append((self._readers[of_type], rows, values, places, plan.picked))
+            get = getattr(self, f"fmi3Get{FUNCTIONS.get(of_type, of_type)}")
+            parts.append((get, rows, values, places, plan.picked))
         result = np.zeros(len(references), float if sort == "Real" else int)
 
         def read():
@@ -175,13 +168,13 @@ class Slave3(fmi3.FMU3Slave):
     deSerializeFMUstate = fmi3.FMU3Slave.deserializeFMUState
 
 
-FUNCTIONS = {"Enumeration": "Int64"}
+FUNCTIONS = {"Enumeration": "Int64"}  # of a type, where its name is another
 CELLS = {"Float64": fmi3.fmi3Float64, "Int32": fmi3.fmi3Int32, "Enumeration": fmi3.fmi3Int64, "Boolean": fmi3.fmi3Boolean}
 
 
 def unloaded(fmu, name):
     """An instance that has not been made yet; the library is loaded with it."""
     d = fmu.description
-    arguments = {"guid": d.guid or d.instantiationToken, "unzipDirectory": fmu.directory, "instanceName": name}
+    arguments = {"guid": d.guid, "unzipDirectory": fmu.directory, "instanceName": name}
     arguments["modelIdentifier"] = d.coSimulation.modelIdentifier
-    return Slave3(fmu.places, **arguments) if fmu.places else Slave2(**arguments)
+    return FMU3Instance(fmu.places, **arguments) if fmu.places else FMU2Instance(**arguments)
