@@ -48,7 +48,9 @@ use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
 use tools::{Shelf, Tools};
 
-pub use crate::rolling::control::{DriveRow, InputError, STANDSTILL, peripheral_velocity};
+pub use crate::rolling::control::{
+    Direction, DriveRow, InputError, RAMP_NUMBERS, STANDSTILL, STEEPEST, peripheral_velocity,
+};
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
 pub use crate::rolling::substeps::LONGEST_STEP;
 pub use crate::rolling::{
@@ -276,7 +278,8 @@ impl Simulation {
 
     /// Outputs a little before and behind the present ones along a direction of the inputs that led to them: those of
     /// the last communication step, or of the stationary start. See [`crate::rolling::sensitivity`].
-    pub fn difference(&mut self, direction: &Drive) -> Result<Difference, StepError> {
+    pub fn difference(&mut self, direction: impl Into<Direction>) -> Result<Difference, StepError> {
+        let direction = &direction.into();
         let Checkpoint { state, tuning, origin, .. } = &self.checkpoint;
         let mut tools = self.model.shelf.take();
         let rolling = &self.model.rolling;

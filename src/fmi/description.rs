@@ -151,7 +151,7 @@ pub fn variability(variable: &Variable) -> &'static str {
     match variable.access {
         Access::ChoiceInput(..) => "discrete",
         Access::Output(row) if matches!(row.read, Read::Count(_) | Read::Flag(_)) => "discrete",
-        Access::RealInput(_) | Access::Output(_) => "continuous",
+        Access::RealInput(_) | Access::Ramp(_) | Access::Output(_) => "continuous",
         _ if variable.tunable => "tunable",
         _ => "fixed",
     }

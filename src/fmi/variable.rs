@@ -18,6 +18,8 @@ pub enum Access {
     Parameter(&'static Row<Config>),
     /// A real input.
     RealInput(fn(&mut Drive) -> &mut f64),
+    /// The time derivative of a real input.
+    Ramp(fn(&mut Drive) -> &mut f64),
     /// A choice between partners: getter and setter, which ignores values of another type.
     ChoiceInput(fn(&Inputs) -> Value, fn(&mut Inputs, &Value)),
     /// An output.
@@ -73,7 +75,7 @@ impl Variable {
     pub fn causality(&self) -> Causality {
         match self.access {
             Access::Preset | Access::Parameter(_) => Causality::Parameter,
-            Access::RealInput(_) | Access::ChoiceInput(..) => Causality::Input,
+            Access::RealInput(_) | Access::Ramp(_) | Access::ChoiceInput(..) => Causality::Input,
             Access::Output(_) => Causality::Output,
         }
     }
@@ -112,6 +114,7 @@ impl Variable {
     pub fn input(&self, inputs: &mut Inputs) -> Option<Value> {
         match self.access {
             Access::RealInput(field) => Some(Value::Real(*field(&mut inputs.drive))),
+            Access::Ramp(field) => Some(Value::Real(*field(&mut inputs.rate))),
             Access::ChoiceInput(get, _) => Some(get(inputs)),
             _ => None,
         }
@@ -121,6 +124,7 @@ impl Variable {
     pub fn set_input(&self, inputs: &mut Inputs, value: &Value) {
         match (self.access, value) {
             (Access::RealInput(field), Value::Real(v)) => *field(&mut inputs.drive) = *v,
+            (Access::Ramp(field), Value::Real(v)) => *field(&mut inputs.rate) = *v,
             (Access::ChoiceInput(_, set), value) => set(inputs, value),
             _ => {}
         }

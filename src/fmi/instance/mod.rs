@@ -113,7 +113,7 @@ impl Slave for WheelSlave {
         }
         match self.compute(life, |simulation| simulation.advance(&inputs, h))? {
             Ok(()) => {
-                self.settings.hold(end);
+                self.settings.hold(inputs.rate, end);
                 (self.failure, self.hopeless) = (None, false);
                 self.warn_of_limits(start + h, life);
                 if let Some(simulation) = &self.simulation {
@@ -239,7 +239,7 @@ impl WheelSlave {
 
     /// Sets time derivatives of inputs during the next step, each with its order; all or none.
     pub fn set_rates(&mut self, values: &[(&Variable, i32, f64)]) -> Outcome {
-        derivatives::set_rates(&mut self.settings.rates, values)
+        derivatives::set_rates(&mut self.settings, values)
     }
 
     fn warn_of_limits(&mut self, time: f64, life: &Life) {

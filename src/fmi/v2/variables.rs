@@ -8,7 +8,7 @@ use std::array::from_fn;
 use std::sync::OnceLock;
 
 /// Number of scalar variables: the preset, parameters, inputs and outputs.
-const COUNT: usize = 1 + Config::COUNT + Inputs::CONTROLS + Drive::ROWS.len() + output_count();
+const COUNT: usize = 1 + Config::COUNT + Inputs::CONTROLS + Drive::ROWS.len() + Drive::RAMPS + output_count();
 
 /// Number of scalar outputs.
 const fn output_count() -> usize {
