@@ -183,6 +183,58 @@ def test_the_wheel_locks_in_both_versions(fmu3):
         assert abs(wheel.get("wheel.omega")) < 0.1 and wheel.get("brake.locked")
 
 
+def ramped(wheel, give):
+    """Steps of 5 ms under a moment and a load that rise and fall within them; `give` takes their rates. The work of the hub."""
+    with wheel:
+        rows = []
+        for k in range(20):
+            rates = {"drive.moment": -2e5 * (1 if k % 4 < 2 else -1), "drive.load": 1e6 * (1 if k % 2 else -1)}
+            give(wheel, rates)
+            wheel.step(5e-3)
+            rows.append(outputs_of(wheel))
+        return rows, wheel.get("energy.hub_work")
+
+
+def test_ramps_as_inputs_are_those_of_input_derivatives(fmu, fmu3):
+    derivatives = [ramped(Wheel(opened), lambda wheel, rates: wheel.set_rates(rates)) for opened in (fmu, fmu3)]
+    inputs = [
+        ramped(Wheel(opened), lambda wheel, rates: wheel.set({f"{name}_rate": rate for name, rate in rates.items()}))
+        for opened in (fmu, fmu3)
+    ]
+    assert derivatives[0] == derivatives[1] == inputs[0] == inputs[1]
+    value = {"drive.moment": 0.0, "drive.load": 1e5}
+
+    def hold(wheel, rates):
+        wheel.set(value)
+        value.update({name: value[name] + 5e-3 * rate for name, rate in rates.items()})
+
+    _, held = ramped(Wheel(fmu), hold)
+    print(f"work of the hub: {inputs[0][1]:.1f} J with rates, {held:.1f} J with held values")
+    assert abs(held / inputs[0][1] - 1.0) > 0.01
+
+
+def test_motions_move_to_the_same_ends_in_both_versions(fmu, fmu3):
+    runs = []
+    for opened in (fmu, fmu3):
+        with Wheel(opened, inputs={"control.translation": "velocity", "control.rotation": "velocity"}) as wheel:
+            for _ in range(5):
+                wheel.set_rates({"drive.velocity": -3.0, "drive.omega": -6.5})
+                wheel.step(5e-3)
+            runs.append(outputs_of(wheel))
+    assert runs[0] == runs[1]
+
+
+def test_both_ways_to_give_a_rate_are_refused_together(fmu):
+    with Wheel(fmu) as wheel:
+        wheel.set({"drive.moment_rate": 5.0})
+        with pytest.raises(Refused, match="drive.moment_rate"):
+            wheel.set_rates({"drive.moment": 1.0})
+        wheel.set({"drive.moment_rate": 0.0})
+        wheel.set_rates({"drive.moment": 1.0})
+        with pytest.raises(Refused, match="drive.moment_rate"):
+            wheel.set({"drive.moment_rate": 5.0})
+
+
 def test_states_cross_between_the_versions(fmu, fmu3):
     with Wheel(fmu) as two, Wheel(fmu3) as three:
         two.set({"drive.moment": -400.0})

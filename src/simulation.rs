@@ -225,6 +225,22 @@ impl Simulation {
         Self { model, tuning, checkpoint, outputs }
     }
 
+    /// Advances by at most `h` seconds, to the internal step after which the brake holds or no longer holds the wheel, or contact
+    /// is lost or made again; returns the time \[s]. On error the state stays as it was and the run can go on.
+    pub fn advance_to_event(&mut self, inputs: &Inputs, h: f64) -> Result<f64, StepError> {
+        let mut tools = self.model.shelf.take();
+        let Self { model, tuning, checkpoint, .. } = self;
+        let Tools { workspace, spare } = &mut *tools;
+        let found =
+            substeps::advance_to_event(&model.rolling, tuning, &checkpoint.state, (inputs, h), workspace, spare);
+        let reached = found.map(|(inputs, reached)| {
+            self.commit(&inputs, reached, &mut tools.spare);
+            reached
+        });
+        self.model.shelf.put_back(tools);
+        reached
+    }
+
     /// Advances by `h` seconds; on error the state stays as it was and the run can go on.
     pub fn advance(&mut self, inputs: &Inputs, h: f64) -> Result<(), StepError> {
         let mut tools = self.model.shelf.take();
@@ -234,12 +250,19 @@ impl Simulation {
     }
 
     fn advance_with(&mut self, inputs: &Inputs, h: f64, tools: &mut Tools) -> Result<(), StepError> {
-        let Self { model, tuning, checkpoint, outputs } = self;
+        let Self { model, tuning, checkpoint, .. } = self;
         let Tools { workspace, spare } = tools;
         substeps::advance(&model.rolling, tuning, &checkpoint.state, inputs, h, workspace, spare)?;
+        self.commit(inputs, h, spare);
+        Ok(())
+    }
+
+    /// Goes on from the state `spare` after a step of `h` seconds, which gets the memory of a state before.
+    fn commit(&mut self, inputs: &Inputs, h: f64, spare: &mut State) {
+        let Self { model, tuning, checkpoint, outputs } = self;
         std::mem::swap(&mut checkpoint.state, spare);
         if checkpoint.state.clock.pending > 0.0 {
-            return Ok(());
+            return;
         }
         let present = outputs::observe(&model.rolling, &checkpoint.state);
         let mut before = std::mem::replace(outputs, present);
@@ -256,7 +279,6 @@ impl Simulation {
             }
             origin => *origin = Origin::Step { state: Box::new(std::mem::take(spare)), inputs: *inputs, length: h },
         }
-        Ok(())
     }
 
     /// Goes on with other tunable parameters.

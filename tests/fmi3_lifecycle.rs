@@ -317,3 +317,56 @@ fn random_legal_and_illegal_calls_end_with_a_status_and_finite_outputs() {
     println!("{calls} calls: {} ok, {} discarded, {} refused", counts[0], counts[2], counts[3]);
     assert!(counts[0] > calls / 10 && counts[3] > calls / 10 && counts[1] == 0);
 }
+
+/// A wheel that a brake locks at low adhesion, with what its master allows.
+fn braked(early_return: u8) -> Wheel {
+    let wheel = Wheel::try_new(&Arguments { early_return, ..Default::default() }).ok().unwrap();
+    for (name, value) in [("mesh.elements_per_half_width", 4), ("mesh.grid_elements_per_half_width", 4)] {
+        assert_eq!(wheel.set_int32(name, value), Status::Ok);
+    }
+    assert_eq!(
+        (wheel.set_int32("solver.modes_wheel", 6), wheel.set_int32("solver.modes_rail", 4)),
+        (Status::Ok, Status::Ok)
+    );
+    assert_eq!(wheel.set("initial.velocity", 5.0), Status::Ok);
+    assert_eq!(wheel.set("friction.coefficient", 0.1), Status::Ok);
+    wheel.initialize();
+    wheel
+}
+
+/// Steps of 5 ms up to 0.2 s under a torque that is taken away after 0.1 s; what each has told, and the end of the run.
+fn locked_and_released(wheel: &Wheel) -> (Vec<(Told, u8)>, [f64; 3]) {
+    let (mut time, mut told, mut k) = (0.0, Vec::new(), 0);
+    while k < 40 {
+        let end = 5e-3 * f64::from(k + 1);
+        assert_eq!(wheel.set("brake.torque", if k < 20 { 3e4 } else { 0.0 }), Status::Ok);
+        let (status, now) = wheel.told(time, end - time);
+        assert_eq!(status, Status::Ok, "{:?}", wheel.heard());
+        time = now.time;
+        told.push((now, wheel.boolean("brake.locked")));
+        k += i32::from(now.early == 0);
+    }
+    (told, ["wheel.velocity", "wheel.omega", "wheel.distance"].map(|name| wheel.float64(name)))
+}
+
+#[test]
+fn a_step_returns_early_where_the_wheel_locks_and_is_released_and_the_run_has_the_same_end() {
+    let (whole, expected) = locked_and_released(&braked(0));
+    assert!(whole.iter().all(|(told, _)| told.early == 0) && whole.len() == 40);
+    let locked_at = whole.iter().position(|(_, locked)| *locked == 1).unwrap() as f64 * 5e-3;
+    let (cut, end) = locked_and_released(&braked(1));
+    let early: Vec<_> = cut.iter().filter(|(told, _)| told.early == 1).collect();
+    let lock = early.iter().find(|(_, locked)| *locked == 1).expect("an early return at the lock").0.time;
+    println!(
+        "locks at {:.3} ms, within the step from {:.0} ms; {} early returns",
+        1e3 * lock,
+        1e3 * locked_at,
+        early.len()
+    );
+    assert!(lock > locked_at && lock < locked_at + 5e-3);
+    assert!(early.len() >= 2 && early.len() <= 6, "{early:?}");
+    for (a, b) in end.iter().zip(expected) {
+        println!("{a:.9} and {b:.9} at the end");
+        assert!((a - b).abs() < 1e-4 * b.abs().max(1.0));
+    }
+}

@@ -17,6 +17,7 @@ from .values import Refused
 
 TYPES = {"Float64": "Real", "Int32": "Integer"}  # names that differ between the versions
 QUIET = ["logEvents", "logProgress"]  # categories of which FMI 2.0 is silent unless asked
+RAMPS = 20  # from the value reference of an input to that of its time derivative
 BUFFERS = {"Real": c_double, "Integer": c_int, "Boolean": c_int}
 
 
@@ -86,7 +87,7 @@ class FMU3Instance(fmi3.FMU3Slave):
 
     def __init__(self, places, **arguments):
         super().__init__(**arguments)
-        self.places, self.experiment, self._plans = places, {}, {}
+        self.places, self.experiment, self._plans, self._rates = places, {}, {}, {}
 
     def start(self, log):
         """Makes the instance, whose messages go to the list `log`: as many as FMI 2.0 sends unasked."""
@@ -128,7 +129,25 @@ class FMU3Instance(fmi3.FMU3Slave):
     setReal = setInteger = setBoolean = setString = _set
 
     def setRealInputDerivatives(self, references, orders, values):
-        raise Refused("FMI 3.0 has no derivatives of inputs")
+        """Takes time derivatives for the next step: of forces they are inputs, motions move linearly to their end."""
+        if set(orders) - {1}:
+            raise Refused(f"derivatives of order {max(orders)}: only order 1 is possible")
+        self._rates |= dict(zip(references, values))
+
+    def doStep(self, currentCommunicationPoint, communicationStepSize, noSetFMUStatePriorToCurrentPoint=True):
+        ramped = {k + RAMPS: rate for k, rate in self._rates.items() if k + RAMPS in self.places}
+        moved = [k for k in self._rates if k + RAMPS not in self.places]
+        if moved:
+            ends = [value + communicationStepSize * self._rates[k] for k, value in zip(moved, self.getReal(moved))]
+            self.setReal(moved, ends)
+        if ramped:
+            self.setReal(list(ramped), list(ramped.values()))
+        self._rates = {}
+        try:
+            return super().doStep(currentCommunicationPoint, communicationStepSize, noSetFMUStatePriorToCurrentPoint)
+        finally:
+            if ramped:
+                self.setReal(list(ramped), [0.0] * len(ramped))
 
     def getRealOutputDerivatives(self, references, orders):
         plan, values = self._plan(references), []

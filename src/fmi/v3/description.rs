@@ -58,7 +58,7 @@ fn capabilities(xml: &mut XmlText) -> io::Result<()> {
         ("canHandleVariableCommunicationStepSize", "true"),
         ("maxOutputDerivativeOrder", output_order.as_str()),
         ("providesIntermediateUpdate", "false"),
-        ("mightReturnEarlyFromDoStep", "false"),
+        ("mightReturnEarlyFromDoStep", "true"),
         ("hasEventMode", "false"),
     ];
     empty(xml, "CoSimulation", &attributes)

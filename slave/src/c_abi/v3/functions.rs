@@ -164,7 +164,10 @@ pub unsafe fn fmi3DoStep<S: Slave>(
             store(lastSuccessfulTime, vec![instance.last_successful_time()], "lastSuccessfulTime")?;
             let done = instance.do_step(currentCommunicationPoint, communicationStepSize);
             store(terminateSimulation, vec![instance.terminated().into()], "terminateSimulation")?;
-            store(lastSuccessfulTime, vec![instance.last_successful_time()], "lastSuccessfulTime")?;
+            let reached = instance.last_successful_time();
+            let early = done.is_ok() && reached < currentCommunicationPoint + communicationStepSize;
+            store(earlyReturn, vec![early.into()], "earlyReturn")?;
+            store(lastSuccessfulTime, vec![reached], "lastSuccessfulTime")?;
             done
         })
     }

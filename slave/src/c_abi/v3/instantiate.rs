@@ -31,7 +31,7 @@ impl CoSimulationRequest {
             (text(self.name, "instanceName")?, text(self.token, "instantiationToken")?, intermediate)
         };
         boolean(self.visible, "visible")?;
-        boolean(self.early_return, "earlyReturnAllowed")?;
+        let early_return = boolean(self.early_return, "earlyReturnAllowed")?;
         if boolean(self.event_mode, "eventModeUsed")? {
             let why = "eventModeUsed = fmi3True, but this FMU has no Event Mode (hasEventMode = false): pass fmi3False";
             return Err(CallError::error(why));
@@ -43,7 +43,10 @@ impl CoSimulationRequest {
         // SAFETY: see the module: a string, unless it is NULL.
         let resources = (!self.resources.is_null()).then(|| unsafe { text(self.resources, "resourcePath") });
         let resources = resources.transpose()?.map(Into::into);
-        Newcomer { name, identity: ("instantiationToken", token), resources }.instance(S::token, log)
+        let newcomer = Newcomer { name, identity: ("instantiationToken", token), resources };
+        let mut instance = newcomer.instance(S::token, log)?;
+        instance.allow_early_return(early_return);
+        Ok(instance)
     }
 }
 
