@@ -57,6 +57,28 @@ fn an_archive_holds_the_binaries_of_all_its_platforms() {
 }
 
 #[test]
+fn the_manifest_of_references_names_files_that_are_there_and_every_preset() {
+    let directory = workplace("references");
+    let fmu = directory.join("references.fmu");
+    for interface in [Interface::Two(Extent::Full), Interface::Three] {
+        package::write(&fmu, &Contents { interface, ..contents(vec![library(&directory, "linux64").0]) }).unwrap();
+        let mut archive = ZipArchive::new(File::open(&fmu).unwrap()).unwrap();
+        let names: Vec<_> = archive.file_names().map(|name| name.unwrap().into_owned()).collect();
+        let mut manifest = String::new();
+        let folder = "extra/org.fmi-standard.fmi-ls-ref";
+        archive.by_name(&format!("{folder}/fmi-ls-manifest.xml")).unwrap().read_to_string(&mut manifest).unwrap();
+        let sources: Vec<_> = manifest.split("source=\"").skip(1).map(|part| part.split('"').next().unwrap()).collect();
+        for source in &sources {
+            let place = source.strip_prefix("../../").map_or(format!("{folder}/{source}"), str::to_owned);
+            assert!(names.contains(&place), "{place}");
+        }
+        let presets = names.iter().filter(|name| name.starts_with("resources/") && name.ends_with(".json")).count();
+        assert_eq!(sources.iter().filter(|source| source.ends_with(".ssv")).count(), presets);
+        assert!(presets >= 12);
+    }
+}
+
+#[test]
 fn a_bill_of_materials_lies_beside_the_licences() {
     let directory = workplace("bill");
     let (bill, fmu) = (directory.join("bill.json"), directory.join("bill.fmu"));

@@ -5,6 +5,7 @@ use super::{Failure, model};
 use std::fs;
 use std::path::PathBuf;
 use wheelrail::fmi::package::{self, Contents, StoredBasis};
+use wheelrail::fmi::package_error::PackageError;
 use wheelrail::fmi::platform::{self, Binary};
 use wheelrail::fmi::presets;
 
@@ -48,7 +49,7 @@ impl Pack {
         if let Some(parent) = self.out.parent() {
             fs::create_dir_all(parent)?;
         }
-        let failed = |error: package::PackageError| Failure::Run(error.to_string());
+        let failed = |error: PackageError| Failure::Run(error.to_string());
         let interface = self.interface.interface();
         let Pack { out, library, mut binaries, resources, reference, sbom, .. } = self;
         match platform::own_platform() {

@@ -3,11 +3,13 @@
 use super::MODEL_IDENTIFIER;
 use super::documentation::index_html;
 use super::interface::Interface;
+use super::package_error::PackageError;
 use super::pages::{PICTURES, pages};
-use super::platform::{Binary, platform_names};
-use crate::files::{self, NewFile};
+use super::platform::{Binary, read};
+use super::references;
+use crate::files::NewFile;
 use std::fs;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
@@ -45,66 +47,12 @@ const FIXED: [(&str, &[u8]); 8] = [
     ("documentation/licenses/LICENSE-THIRD-PARTY", include_bytes!("../../docs/LICENSE-THIRD-PARTY")),
 ];
 
-/// An FMU that cannot be written as asked for.
-#[derive(Debug, thiserror::Error)]
-pub enum PackageError {
-    /// A platform that the standard does not name.
-    #[error("platform {0:?} is unknown: {list}", list = platform_names())]
-    Platform(String),
-    /// A machine for which the standard has no name.
-    #[error(
-        "FMI names no platform for {os} on {architecture}: say with --binary PLATFORM=FILE where your master looks"
-    )]
-    Unnamed {
-        /// Operating system.
-        os: &'static str,
-        /// Architecture of the processor.
-        architecture: &'static str,
-    },
-    /// A platform that FMI 3.0 alone names.
-    #[error("FMI 2.0 has no name for {0}: pack the FMU with --fmi 3, which has one")]
-    OnlyThree(&'static str),
-    /// An argument without platform or file.
-    #[error("{0:?} is not of the form PLATFORM=FILE")]
-    Pair(String),
-    /// A file that is no shared library of its platform.
-    #[error("{} is no shared library for {platform}", path.display())]
-    NoLibrary {
-        /// The file.
-        path: PathBuf,
-        /// The platform.
-        platform: &'static str,
-    },
-    /// Two libraries at one place.
-    #[error("two binaries are to become {0}")]
-    Twice(String),
-    /// A file that cannot be read.
-    #[error("{}: {source}", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// The archive cannot be made.
-    #[error(transparent)]
-    Zip(#[from] zip::result::ZipError),
-    /// The archive cannot be written.
-    #[error(transparent)]
-    Write(#[from] io::Error),
-}
-
 /// Place of the picture of the model.
 fn figure(interface: Interface) -> &'static str {
     match interface {
         Interface::Two(_) => "model.png",
         Interface::Three => "documentation/diagram.png",
     }
-}
-
-/// The content of a file.
-pub(super) fn read(path: &Path) -> Result<Vec<u8>, PackageError> {
-    files::read(path).map_err(|source| PackageError::File { path: path.to_owned(), source })
 }
 
 /// Files of a directory whose names satisfy the condition, sorted by name.
@@ -140,8 +88,11 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
     entries.extend(FIXED.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())));
     entries.extend(pages().map(|page| (format!("documentation/{}", page.file()), page.html().into_bytes())));
     entries.extend(PICTURES.map(|(path, bytes)| (format!("documentation/{path}"), bytes.to_vec())));
-    for (name, path) in files(&contents.resources, |name| [".json", ".csv"].iter().any(|end| name.ends_with(end)))? {
-        entries.push((format!("resources/{name}"), read(&path)?));
+    let resources = files(&contents.resources, |name| [".json", ".csv"].iter().any(|end| name.ends_with(end)))?;
+    let presets: Vec<_> = resources.iter().filter_map(|(name, _)| name.strip_suffix(".json")).collect();
+    entries.extend(references::entries(&presets)?);
+    for (name, path) in &resources {
+        entries.push((format!("resources/{name}"), read(path)?));
     }
     for (name, path) in files(&contents.reference, |name| name.starts_with(MODEL_IDENTIFIER))? {
         entries.push((format!("documentation/reference/{name}"), read(&path)?));

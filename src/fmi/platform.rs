@@ -2,8 +2,9 @@
 
 use super::MODEL_IDENTIFIER;
 use super::interface::Interface;
-use super::package::{PackageError, read};
-use std::path::PathBuf;
+use super::package_error::PackageError;
+use crate::files;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 /// A platform for which the standard has a name.
@@ -45,7 +46,7 @@ pub const PLATFORMS: [Platform; 9] = [
 ];
 
 /// Names of all platforms in both versions, for messages.
-pub fn platform_names() -> String {
+fn platform_names() -> String {
     let mut names: Vec<_> = PLATFORMS.iter().filter_map(|platform| platform.two).collect();
     names.dedup();
     names.extend(PLATFORMS.iter().map(|platform| platform.three));
@@ -64,6 +65,11 @@ fn platform_of(os: &'static str, architecture: &'static str) -> Result<&'static 
     PLATFORMS.iter().find(|known| known.three == name).ok_or(PackageError::Unnamed { os, architecture })
 }
 
+/// The content of a file.
+pub(super) fn read(path: &Path) -> Result<Vec<u8>, PackageError> {
+    files::read(path).map_err(|source| PackageError::File { path: path.to_owned(), source })
+}
+
 /// A shared library and the platform it was compiled for; as text `PLATFORM=FILE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Binary {
@@ -75,7 +81,7 @@ impl Binary {
     /// A library for a platform, by its name in either version.
     pub fn new(platform: &str, file: impl Into<PathBuf>) -> Result<Self, PackageError> {
         let known = PLATFORMS.iter().find(|known| known.three == platform || known.two == Some(platform));
-        let unknown = || PackageError::Platform(platform.to_owned());
+        let unknown = || PackageError::Platform { name: platform.to_owned(), known: platform_names() };
         Ok(Self { platform: known.ok_or_else(unknown)?, file: file.into() })
     }
 

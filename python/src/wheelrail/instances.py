@@ -51,8 +51,8 @@ def scalars(description):
     return variables, places
 
 
-class FMU2Instance(fmi2.FMU2Slave):
-    """An instance of FMI 2.0. fmpy wants to know the version from the name of the class."""
+class Functions2:
+    """What an instance of FMI 2.0 has besides the functions of fmpy's class."""
 
     def start(self, log):
         """Makes the instance, whose messages go to the list `log`."""
@@ -82,8 +82,8 @@ class Plan:
         self.picked = [starts[place.reference] + place.index for place in places]
 
 
-class FMU3Instance(fmi3.FMU3Slave):
-    """An instance of FMI 3.0; `places` are those of `scalars`."""
+class Functions3:
+    """What an instance of FMI 3.0 has besides the functions of fmpy's class; `places` are those of `scalars`."""
 
     def __init__(self, places, **arguments):
         super().__init__(**arguments)
@@ -150,7 +150,7 @@ class FMU3Instance(fmi3.FMU3Slave):
                 self.setReal(list(ramped), [0.0] * len(ramped))
 
     def getRealOutputDerivatives(self, references, orders):
-        plan, values = self._plan(references), []
+        plan = self._plan(references)
         rows, values = (c_uint * len(plan.rows))(*plan.rows), (c_double * plan.size)()
         order = (c_int * len(plan.rows))(*[max(orders)] * len(plan.rows))
         self.fmi3GetOutputDerivatives(self.component, rows, len(rows), order, values, plan.size)
@@ -182,9 +182,21 @@ class FMU3Instance(fmi3.FMU3Slave):
 
         return read
 
-    getFMUstate, setFMUstate = fmi3.FMU3Slave.getFMUState, fmi3.FMU3Slave.setFMUState
-    freeFMUstate, serializeFMUstate = fmi3.FMU3Slave.freeFMUState, fmi3.FMU3Slave.serializeFMUState
-    deSerializeFMUstate = fmi3.FMU3Slave.deserializeFMUState
+    def getFMUstate(self):
+        return self.getFMUState()
+
+    def setFMUstate(self, state):
+        self.setFMUState(state)
+        self._rates = {}
+
+    def freeFMUstate(self, state):
+        self.freeFMUState(state)
+
+    def serializeFMUstate(self, state):
+        return self.serializeFMUState(state)
+
+    def deSerializeFMUstate(self, serializedState):
+        return self.deserializeFMUState(serializedState)
 
 
 FUNCTIONS = {"Enumeration": "Int64"}  # of a type, where its name is another
@@ -192,7 +204,15 @@ CELLS = {"Float64": fmi3.fmi3Float64, "Int32": fmi3.fmi3Int32, "Enumeration": fm
 
 
 def unloaded(fmu, name):
-    """An instance that has not been made yet; the library is loaded with it."""
+    """An instance that has not been made yet; the library is loaded with it. Its class is made anew, because fmpy may have been
+    reloaded, and has a name from which fmpy knows the version."""
+
+    class FMU2Instance(Functions2, fmi2.FMU2Slave):
+        pass
+
+    class FMU3Instance(Functions3, fmi3.FMU3Slave):
+        pass
+
     d = fmu.description
     arguments = {"guid": d.guid, "unzipDirectory": fmu.directory, "instanceName": name}
     arguments["modelIdentifier"] = d.coSimulation.modelIdentifier
