@@ -6,10 +6,11 @@
 # make test-times  every test, one program after the other, with its CPU time: target/test-times.md
 # make fmu       target/wheelrail.fmu, and target/wheelrail.cdx.json: the crates that are linked into its library
 #                make fmu PROFILES=no leaves the points of profiles out of its description (target/wheelrail-slim.fmu)
+# make fmu3      target/wheelrail-fmi3.fmu: the same wheel with the interface of FMI 3.0
 # make ssp       target/coach_and_wheels.ssp and target/osp/: a coach and four wheelsets for other people's masters
 # make reference the run in examples/reference that users can compare theirs with
-# make fmu-all   target/wheelrail-all.fmu for Linux (glibc 2.17) and Windows; says which compilers are missing
-# make platforms-check both binaries of it in a master written in C, the one for Windows under wine: results compared
+# make fmu-all   target/wheelrail-all.fmu and, of FMI 3.0, target/wheelrail-fmi3-all.fmu for Linux (glibc 2.17) and Windows; says which compilers are missing
+# make platforms-check both binaries of them in a master written in C, the one for Windows under wine: results compared
 # make python-wheel  the Python package with the FMU of this machine and the examples inside: target/wheelrail-*.whl
 # make python-dist   the same with the FMU for Linux and Windows, and an sdist for other platforms, in target/dist
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
@@ -38,7 +39,7 @@
 # make house     counts of the source: impl files, fields, duplicate names, comments, long functions, lines
 # make docs      HTML documentation of the library; every warning is an error
 # make site      these pages with search, formulas set, and the API of Python and Rust: target/site/index.html
-# make describe  regenerate modelDescription.xml and docs/reference.md from the variable table
+# make describe  regenerate modelDescription.xml, that of FMI 3.0 (modelDescription3.xml) and docs/reference.md from the variable table
 # make clean     remove everything that was built
 #                make TARGET ARGS="..." hands options to the program of any example, train, sweep, endurance and
 #                random-parameters, make ellipse ARGS=--help lists them; OUT=folder puts results elsewhere than in results/
@@ -57,10 +58,12 @@ TARGET := $(or $(CARGO_TARGET_DIR),target)
 BINARY := $(TARGET)/release/wheelrail
 LIBRARY := $(TARGET)/release/libwheelrail.so
 FMU := target/wheelrail.fmu
+FMU3 := target/wheelrail-fmi3.fmu
 SLIM := target/wheelrail-slim.fmu
 SBOM := target/wheelrail.cdx.json
 COACH := $(TARGET)/release/.coach
 FMU_ALL := target/wheelrail-all.fmu
+FMU_ALL3 := target/wheelrail-fmi3-all.fmu
 SBOM_ALL := target/wheelrail-all.cdx.json
 CACHE := target
 VENV := .venv
@@ -86,7 +89,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test test-tools test-rust test-fmpy quick loop test-times fmu fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs site describe clean
+.PHONY: demo help test test-tools test-rust test-fmpy quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -104,7 +107,7 @@ test-rust:
 	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail -p wheelrail-slave
 	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail-thesis
 
-test-fmpy: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
+test-fmpy: $(FMU) $(FMU3) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 	$(PY) -m pytest --numprocesses logical fmpy_tests
 	$(PY) -m unittest discover --quiet --pattern test_structural_width.py tools
 
@@ -127,8 +130,10 @@ loop:
 	@test -n "$(TEST)" || { echo 'make loop TEST=name: the name of a program in tests/, or lib for the unit tests'; exit 1; }
 	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),--lib,--test $(TEST)) -- $(ARGS)
 
-test-times: $(FMU) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
+test-times: $(FMU) $(FMU3) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 	$(PYTHON) tools/test_times.py --python $(PY) --out $(TARGET)/test-times.md
+
+fmu3: $(FMU3)
 
 fmu: $(if $(filter no,$(PROFILES)),$(SLIM),$(FMU))
 
@@ -138,10 +143,11 @@ ssp: $(FMU) $(COACH) $(INSTALLED)
 reference: $(BUILT)
 	$(PYTHON) examples/reference/make.py --binary $(BINARY)
 
-fmu-all: $(FMU_ALL)
+fmu-all: $(FMU_ALL) $(FMU_ALL3)
 
-platforms-check: $(FMU_ALL)
+platforms-check: $(FMU_ALL) $(FMU_ALL3)
 	$(PYTHON) packaging/check.py $(FMU_ALL) --run
+	$(PYTHON) packaging/check.py $(FMU_ALL3) --run
 
 python-wheel: $(FMU) $(INSTALLED)
 	$(PY) packaging/wheel.py $(FMU) --out target
@@ -239,16 +245,21 @@ site: docs $(SITE)
 describe:
 	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe > modelDescription.xml.new
 	mv modelDescription.xml.new modelDescription.xml
+	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe --fmi 3 > modelDescription3.xml.new
+	mv modelDescription3.xml.new modelDescription3.xml
 	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe --markdown > docs/reference.md.new
 	mv docs/reference.md.new docs/reference.md
 
 clean:
 	$(CARGO) clean
-	rm -rf target $(VENV) results modelDescription.xml.new docs/reference.md.new .pytest_cache
+	rm -rf target $(VENV) results modelDescription.xml.new modelDescription3.xml.new docs/reference.md.new .pytest_cache
 
 $(FMU): $(BUILT) $(SBOM)
 	cp examples/reference/wheelrail_* $(dir $@)
 	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --sbom $(SBOM) --cache $(CACHE)
+
+$(FMU3): $(BUILT) $(SBOM)
+	$(BINARY) pack --fmi 3 --out $@ --library $(LIBRARY) --resources resources --sbom $(SBOM) --cache $(CACHE)
 
 $(SLIM): $(BUILT) $(SBOM)
 	$(BINARY) pack --no-profiles --out $@ --library $(LIBRARY) --resources resources --sbom $(SBOM) --cache $(CACHE)
@@ -268,6 +279,13 @@ $(COACH): $(BUILT) $(shell find coach -type f)
 $(FMU_ALL): $(BUILT) $(PLATFORMS) $(SBOM_ALL) packaging/build packaging/mingw-linker packaging/rustc-wrapper
 	PATH="$(abspath $(VENV)/bin):$$PATH" packaging/build
 	$(BINARY) pack --out $@.new --binary linux64=target/linux64/wheelrail.so --binary win64=target/win64/wheelrail.dll \
+		--resources resources --sbom $(SBOM_ALL) --cache $(CACHE)
+	$(PYTHON) packaging/check.py $@.new
+	mv $@.new $@
+
+# The libraries of the other archive have both interfaces.
+$(FMU_ALL3): $(FMU_ALL)
+	$(BINARY) pack --fmi 3 --out $@.new --binary x86_64-linux=target/linux64/wheelrail.so --binary x86_64-windows=target/win64/wheelrail.dll \
 		--resources resources --sbom $(SBOM_ALL) --cache $(CACHE)
 	$(PYTHON) packaging/check.py $@.new
 	mv $@.new $@

@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             // The linker of zig knows no `--exclude-libs`; of several version scripts it takes the last, which is this
             // one.
             let script = Path::new(&directory).join("exports");
-            fs::write(&script, "{ global: fmi2*; local: *; };\n")?;
+            fs::write(&script, "{ global: fmi2*; fmi3*; local: *; };\n")?;
             println!("cargo::rustc-cdylib-link-arg=-Wl,--version-script={}", script.display());
         } else {
             println!("cargo::rustc-cdylib-link-arg=-Wl,--exclude-libs,ALL");

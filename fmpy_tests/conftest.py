@@ -9,6 +9,7 @@ from wheelrail import Fmu, Wheel
 
 ROOT = Path(__file__).parent.parent
 PACKED = Path(os.environ.get("WHEELRAIL_FMU", ROOT / "target" / "wheelrail.fmu"))
+PACKED3 = ROOT / "target" / "wheelrail-fmi3.fmu"
 
 
 @pytest.fixture(scope="session")
@@ -17,6 +18,21 @@ def packed():
     if not PACKED.is_file():
         pytest.exit(f"{PACKED} does not exist: build it with `make fmu`", returncode=2)
     return PACKED
+
+
+@pytest.fixture(scope="session")
+def packed3():
+    """Path of the FMU of FMI 3.0."""
+    if not PACKED3.is_file():
+        pytest.exit(f"{PACKED3} does not exist: build it with `make fmu3`", returncode=2)
+    return PACKED3
+
+
+@pytest.fixture(scope="session")
+def fmu3(packed3):
+    """The extracted FMU of FMI 3.0."""
+    with Fmu(packed3) as extracted:
+        yield extracted
 
 
 @pytest.fixture(scope="session")

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from fmpy.validation import validate_fmu
 
 from conftest import ROOT
 from wheelrail import Fmu, Wheel, scenario, ssp
@@ -23,12 +24,13 @@ TOLERANCE = 1e-11  # over the largest value of an output
 DRIVEN = {f"axle{k}.{name}": (k - 1, target) for k in range(1, AXLES + 1) for name, target in ssp.TO_WHEEL.items()}
 
 
-@pytest.fixture(scope="module")
-def opened(tmp_path_factory):
-    """`coach.fmu`, extracted."""
+@pytest.fixture(scope="module", params=["2", "3"])
+def opened(request, tmp_path_factory):
+    """`coach.fmu` of FMI 2.0 and of FMI 3.0, extracted."""
     built = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release"
     packed = tmp_path_factory.mktemp("coach") / "coach.fmu"
-    ssp.pack_coach(built / "coach", built / "libcoach.so", packed)
+    ssp.pack_coach(built / "coach", built / "libcoach.so", packed, fmi=request.param)
+    assert validate_fmu(str(packed)) == []
     with Fmu(packed) as opened:
         yield opened
 

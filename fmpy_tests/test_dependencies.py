@@ -30,9 +30,22 @@ VALUES = {
     "rail.elevation": (0.0, 1e-6),
     "rail.elevation_rate": (0.0, 1e-3),
     "brake.torque": (0.0, 500.0),
+    "drive.moment_rate": (0.0, -3e6),
+    "drive.force_rate": (0.0, 2e6),
+    "drive.lateral_force_rate": (0.0, 1e6),
+    "drive.load_rate": (0.0, 1e7),
+    "drive.load_change_rate": (0.0, 5e6),
+    "drive.tread_heat_rate": (0.0, 1e6),
+    "rail.friction_rate": (0.0, -200.0),
+    "rail.temperature_rate": (0.0, 1e4),
+    "rail.slope_rate": (0.0, 10.0),
+    "brake.torque_rate": (0.0, 5e5),
 }
+# Inputs that act where forces are prescribed, besides their rates.
+FORCES = ["drive.moment", "drive.force", "drive.load", "drive.load_change", "drive.lateral_force", "brake.torque"]
 # Inputs that act whatever is prescribed.
-ALWAYS = {"rail.friction", "rail.temperature", "rail.slope", "rail.elevation", "drive.tread_heat", "drive.spin", "drive.contact_angle"}
+ALWAYS = {"rail.friction", "rail.temperature", "rail.slope", "rail.elevation", "drive.tread_heat"}
+ALWAYS |= {f"{name}_rate" for name in ALWAYS - {"rail.elevation"}} | {"drive.spin", "drive.contact_angle"}
 # Parameters that need no new basis.
 PARAMETERS = {"initial.velocity": 15.0, "initial.creepage": 2e-4, "vehicle.mass": 5e3, "thermal.wheel_excess": 5.0}
 
@@ -100,7 +113,7 @@ def test_between_steps_inputs_change_only_what_is_declared_and_act_in_the_next_s
             acted.add(name)
     wheel.forget(here)
     prescribed = {
-        "forces": {"drive.moment", "drive.force", "drive.load", "drive.load_change", "brake.torque", "drive.lateral_force"},
+        "forces": {*FORCES, *(f"{name}_rate" for name in FORCES)},
         "motion": {"drive.omega", "drive.velocity", "drive.displacement", "drive.lateral_velocity"},
     }["forces" if control is DEFAULT else "motion"]
     assert acted >= prescribed | set(DEFAULT) | ALWAYS

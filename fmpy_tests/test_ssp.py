@@ -113,6 +113,18 @@ def test_fmpy_simulates_the_ssp(packages, braking, expected):
     assert_same(np.array([table[f"{component}.{name}"] for component, name in names()]).T, expected, braking)
 
 
+def test_a_package_of_fmi_3_has_the_same_system_and_no_osp(packages, packed3, fmu3, braking, tmp_path):
+    coach, built = tmp_path / "coach.fmu", Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release"
+    ssp.pack_coach(built / "coach", built / "libcoach.so", coach, fmi="3")
+    with Fmu(coach) as opened:
+        package, osp = ssp.write(braking, fmu3, opened, (packed3, coach), tmp_path, STEPS * STEP)
+    assert osp is None and not (tmp_path / "osp").exists()
+    with zipfile.ZipFile(packages[1]) as two, zipfile.ZipFile(package) as three:
+        assert two.namelist() == three.namelist()
+        same = [name for name in two.namelist() if not name.endswith(".fmu")]
+        assert [two.read(name) for name in same] == [three.read(name) for name in same]
+
+
 @pytest.mark.parametrize("kind", ["ssp", "osp"])
 def test_libcosim_runs_the_ssp_and_the_osp_structure(packages, braking, expected, kind, fmu):
     pytest.importorskip("libcosimpy", reason="libcosimpy has no wheel for this platform")

@@ -17,8 +17,12 @@ import zipfile
 from pathlib import Path
 
 HERE = Path(__file__).parent
-LINUX, WINDOWS = "binaries/linux64/wheelrail.so", "binaries/win64/wheelrail.dll"
-FUNCTIONS = 34  # of FMI 2.0 for co-simulation; tests/fmi_library.rs lists them
+# Places of both libraries in an FMU, by the version of FMI.
+BINARIES = {
+    "2.0": ("binaries/linux64/wheelrail.so", "binaries/win64/wheelrail.dll"),
+    "3.0": ("binaries/x86_64-linux/wheelrail.so", "binaries/x86_64-windows/wheelrail.dll"),
+}
+FUNCTIONS = 34 + 75  # of FMI 2.0 for co-simulation and of FMI 3.0; tests/fmi_library.rs lists them
 GLIBC = (2, 17)  # newest version that linux64 may need
 # Bytes of linux64. Without one of the savings of packaging/build it has more: the unused kernels of products of matrices alone are
 # 1.4 MB. tests/fmi_library.rs watches the size of the ordinary library in every test run.
@@ -52,7 +56,7 @@ def require(condition, message):
 
 
 def check_functions(binary, names):
-    others = [name for name in names if not name.startswith("fmi2")]
+    others = [name for name in names if not name.startswith(("fmi2", "fmi3"))]
     require(not others, f"{binary} exports {others}")
     require(len(set(names)) == FUNCTIONS, f"{binary} exports {len(names)} functions, not {FUNCTIONS}: {sorted(names)}")
 
@@ -121,10 +125,24 @@ def check_windows(binary):
 
 
 def outputs(description):
-    """Identity of the FMU, and names and value references of its real outputs."""
+    """Version of FMI, identity of the FMU, names of its real outputs and, for the host, their value references and sizes."""
     root = ElementTree.parse(description).getroot()
-    variables = [v for v in root.iter("ScalarVariable") if v.get("causality") == "output" and v.find("Real") is not None]
-    return root.get("guid"), {variable.get("name"): variable.get("valueReference") for variable in variables}
+    if root.get("fmiVersion") == "2.0":
+        variables = [v for v in root.iter("ScalarVariable") if v.get("causality") == "output" and v.find("Real") is not None]
+        return "2.0", root.get("guid"), [v.get("name") for v in variables], [v.get("valueReference") for v in variables]
+    names, references = [], []
+    for row in root.find("ModelVariables").iterfind("Float64[@causality='output']"):
+        name, dimension = row.get("name"), row.find("Dimension")
+        size = 1 if dimension is None else int(dimension.get("start"))
+        names += [name] if dimension is None else [f"{name}[{k}]" for k in range(1, size + 1)]
+        references.append(f"{row.get('valueReference')}:{size}")
+    return "3.0", root.get("instantiationToken"), names, references
+
+
+def compiled(compiler, version, program, *options):
+    """The C master for a version of FMI."""
+    output(compiler, "-std=c11", "-O1", "-Wall", "-Wextra", f"-DFMI={version[0]}", HERE / "host.c", "-o", program, *options)
+    return program
 
 
 def rows(text):
@@ -152,22 +170,22 @@ def largest_difference(names, one, two):
 
 def run(fmu, directory):
     """Runs both binaries and compares them."""
-    guid, references = outputs(fmu / "modelDescription.xml")
-    resources = (fmu / "resources").as_posix()
-    host = directory / "host"
-    output("cc", "-std=c11", "-O1", "-Wall", "-Wextra", HERE / "host.c", "-o", host, "-ldl")
-    linux = rows(output(host, fmu / LINUX, guid, f"file://{resources}", *references.values()))
-    print(f"linux64: {len(references)} outputs, state saved and restored")
+    version, identity, names, references = outputs(fmu / "modelDescription.xml")
+    scheme, resources = "file://" if version == "2.0" else "", (fmu / "resources").as_posix()
+    host = compiled("cc", version, directory / "host", "-ldl")
+    linux = rows(output(host, fmu / BINARIES[version][0], identity, scheme + resources, *references))
+    print(f"linux64: FMI {version}, {len(names)} outputs, state saved and restored")
     if not shutil.which("wine"):
         print("win64: skipped: wine is not installed")
         return
-    gcc, host = ("x86_64-w64-mingw32-gcc", "-O1", "-Wall", "-Wextra"), directory / "host.exe"
-    output(*gcc, "-std=c11", HERE / "host.c", "-o", host)
-    output(*gcc, "-shared", HERE / "bcryptprimitives.c", "-o", directory / "bcryptprimitives.dll", "-ladvapi32")
+    gcc = "x86_64-w64-mingw32-gcc"
+    host = compiled(gcc, version, directory / "host.exe")
+    output(gcc, "-O1", "-Wall", "-Wextra", "-shared", HERE / "bcryptprimitives.c", "-o", directory / "bcryptprimitives.dll", "-ladvapi32")
     environment = os.environ | {"WINEPREFIX": str(directory / "wine"), "WINEDEBUG": "-all"}
-    command = ("wine", host, fmu / WINDOWS, guid, f"file:///Z:{resources}", *references.values())
+    drive = "file:///Z:" if version == "2.0" else "Z:"
+    command = ("wine", host, fmu / BINARIES[version][1], identity, drive + resources, *references)
     windows = rows(output(*command, env=environment))
-    difference, name = largest_difference(references, linux, windows)
+    difference, name = largest_difference(names, linux, windows)
     print(f"win64: the same under {output('wine', '--version').strip()}; largest difference {difference:.2e} ({name})")
     require(difference <= TOLERANCE, f"{name} differs by {difference:.2e} between linux64 and win64")
 
@@ -181,12 +199,15 @@ def main():
         directory = Path(temporary)
         fmu = directory / "fmu"
         with zipfile.ZipFile(arguments.fmu) as archive:
-            missing = {LINUX, WINDOWS, BILL, "modelDescription.xml"} - set(archive.namelist())
+            require("modelDescription.xml" in archive.namelist(), f"{arguments.fmu} is no FMU")
+            version = ElementTree.fromstring(archive.read("modelDescription.xml")).get("fmiVersion")
+            linux, windows = BINARIES[version]
+            missing = {linux, windows, BILL} - set(archive.namelist())
             require(not missing, f"{arguments.fmu} lacks {sorted(missing)}")
             archive.extractall(fmu)
-        check_linux(fmu / LINUX)
-        check_windows(fmu / WINDOWS)
-        for binary in (LINUX, WINDOWS):
+        check_linux(fmu / linux)
+        check_windows(fmu / windows)
+        for binary in (linux, windows):
             check_paths(fmu / binary)
         if arguments.run:
             run(fmu, directory)

@@ -48,7 +48,7 @@ use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
 use tools::{Shelf, Tools};
 
-pub use crate::rolling::control::{DriveRow, InputError};
+pub use crate::rolling::control::{Direction, DriveRow, InputError, RAMP_NUMBERS, STEEPEST};
 pub use crate::rolling::creepages::{STANDSTILL, peripheral_velocity};
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
 pub use crate::rolling::substeps::LONGEST_STEP;
@@ -225,6 +225,22 @@ impl Simulation {
         Self { model, tuning, checkpoint, outputs }
     }
 
+    /// Advances by at most `h` seconds, to the internal step after which the brake holds or no longer holds the wheel, or contact
+    /// is lost or made again; returns the time \[s]. On error the state stays as it was and the run can go on.
+    pub fn advance_to_event(&mut self, inputs: &Inputs, h: f64) -> Result<f64, StepError> {
+        let mut tools = self.model.shelf.take();
+        let Self { model, tuning, checkpoint, .. } = self;
+        let Tools { workspace, spare } = &mut *tools;
+        let found =
+            substeps::advance_to_event(&model.rolling, tuning, &checkpoint.state, (inputs, h), workspace, spare);
+        let reached = found.map(|(inputs, reached)| {
+            self.commit(&inputs, reached, &mut tools.spare);
+            reached
+        });
+        self.model.shelf.put_back(tools);
+        reached
+    }
+
     /// Advances by `h` seconds; on error the state stays as it was and the run can go on.
     pub fn advance(&mut self, inputs: &Inputs, h: f64) -> Result<(), StepError> {
         let mut tools = self.model.shelf.take();
@@ -234,12 +250,19 @@ impl Simulation {
     }
 
     fn advance_with(&mut self, inputs: &Inputs, h: f64, tools: &mut Tools) -> Result<(), StepError> {
-        let Self { model, tuning, checkpoint, outputs } = self;
+        let Self { model, tuning, checkpoint, .. } = self;
         let Tools { workspace, spare } = tools;
         substeps::advance(&model.rolling, tuning, &checkpoint.state, inputs, h, workspace, spare)?;
+        self.commit(inputs, h, spare);
+        Ok(())
+    }
+
+    /// Goes on from the state `spare` after a step of `h` seconds, which gets the memory of a state before.
+    fn commit(&mut self, inputs: &Inputs, h: f64, spare: &mut State) {
+        let Self { model, tuning, checkpoint, outputs } = self;
         std::mem::swap(&mut checkpoint.state, spare);
         if checkpoint.state.clock.pending > 0.0 {
-            return Ok(());
+            return;
         }
         let present = outputs::observe(&model.rolling, &checkpoint.state);
         let mut before = std::mem::replace(outputs, present);
@@ -256,7 +279,6 @@ impl Simulation {
             }
             origin => *origin = Origin::Step { state: Box::new(std::mem::take(spare)), inputs: *inputs, length: h },
         }
-        Ok(())
     }
 
     /// Goes on with other tunable parameters.
@@ -278,7 +300,8 @@ impl Simulation {
 
     /// Outputs a little before and behind the present ones along a direction of the inputs that led to them: those of
     /// the last communication step, or of the stationary start. See [`crate::rolling::sensitivity`].
-    pub fn difference(&mut self, direction: &Drive) -> Result<Difference, StepError> {
+    pub fn difference(&mut self, direction: impl Into<Direction>) -> Result<Difference, StepError> {
+        let direction = &direction.into();
         let Checkpoint { state, tuning, origin, .. } = &self.checkpoint;
         let mut tools = self.model.shelf.take();
         let rolling = &self.model.rolling;

@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
-use wheelrail::fmi::package::{self, Binary, Contents};
+use wheelrail::fmi::interface::Interface;
+use wheelrail::fmi::package::{self, Contents};
+use wheelrail::fmi::platform::Binary;
 use wheelrail::fmi::v2::description::Extent;
 use wheelrail::fmi::v2::variables::variables;
 use zip::ZipArchive;
@@ -18,7 +20,7 @@ fn documentation() -> (BTreeMap<String, String>, BTreeSet<String>) {
     let (library, fmu) = (directory.join("library"), directory.join("documentation.fmu"));
     fs::write(&library, "\x7fELF").unwrap();
     let contents = Contents {
-        extent: Extent::WithoutProfiles,
+        interface: Interface::Two(Extent::WithoutProfiles),
         binaries: vec![Binary::new("linux64", library).unwrap()],
         resources: root.join("resources"),
         reference: root.join("examples/reference"),

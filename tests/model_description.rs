@@ -5,6 +5,7 @@ use std::path::Path;
 use wheelrail::config::Config;
 use wheelrail::config::retired::RETIRED;
 use wheelrail::fmi::documentation::index_html;
+use wheelrail::fmi::interface::Interface;
 use wheelrail::fmi::presets;
 use wheelrail::fmi::reference::{SECTIONS, markdown};
 use wheelrail::fmi::settings::start_value;
@@ -24,6 +25,9 @@ fn committed_file_is_the_generated_one() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription.xml");
     let committed = std::fs::read_to_string(path).unwrap();
     assert!(committed == model_description(Extent::Full).unwrap(), "run `wheelrail describe > modelDescription.xml`");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription3.xml");
+    let committed = std::fs::read_to_string(path).unwrap();
+    assert!(committed == Interface::Three.description().unwrap(), "run `make describe`");
 }
 
 #[test]
@@ -75,7 +79,7 @@ fn reference_pages_show_some_thirty_basic_parameters_before_the_expert_ones() {
         assert!(basic.contains(&name), "{name}");
     }
     assert!(expert.contains(&"solver.modes_wheel"));
-    for page in [markdown(), index_html()] {
+    for page in [markdown(), index_html(Interface::Two(Extent::Full))] {
         let at = |text: &str| page.find(text).unwrap_or_else(|| panic!("{text} is missing"));
         let [first, second, retired] = ["Basic parameters", "Expert parameters", "Retired parameters"].map(at);
         assert!(first < second && second < retired);

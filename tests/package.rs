@@ -4,7 +4,9 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use wheelrail::fmi::package::{self, Binary, Contents};
+use wheelrail::fmi::interface::Interface;
+use wheelrail::fmi::package::{self, Contents};
+use wheelrail::fmi::platform::{self, Binary};
 use wheelrail::fmi::v2::description::Extent;
 use zip::ZipArchive;
 
@@ -20,7 +22,7 @@ fn workplace(name: &str) -> PathBuf {
 fn contents(binaries: Vec<Binary>) -> Contents {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     Contents {
-        extent: Extent::Full,
+        interface: Interface::Two(Extent::Full),
         binaries,
         resources: root.join("resources"),
         reference: root.join("examples/reference"),
@@ -51,6 +53,28 @@ fn an_archive_holds_the_binaries_of_all_its_platforms() {
     }
     for name in ["modelDescription.xml", "model.png", "documentation/index.html", "resources/railway.json"] {
         assert!(archive.by_name(name).is_ok(), "{name}");
+    }
+}
+
+#[test]
+fn the_manifest_of_references_names_files_that_are_there_and_every_preset() {
+    let directory = workplace("references");
+    let fmu = directory.join("references.fmu");
+    for interface in [Interface::Two(Extent::Full), Interface::Three] {
+        package::write(&fmu, &Contents { interface, ..contents(vec![library(&directory, "linux64").0]) }).unwrap();
+        let mut archive = ZipArchive::new(File::open(&fmu).unwrap()).unwrap();
+        let names: Vec<_> = archive.file_names().map(|name| name.unwrap().into_owned()).collect();
+        let mut manifest = String::new();
+        let folder = "extra/org.fmi-standard.fmi-ls-ref";
+        archive.by_name(&format!("{folder}/fmi-ls-manifest.xml")).unwrap().read_to_string(&mut manifest).unwrap();
+        let sources: Vec<_> = manifest.split("source=\"").skip(1).map(|part| part.split('"').next().unwrap()).collect();
+        for source in &sources {
+            let place = source.strip_prefix("../../").map_or(format!("{folder}/{source}"), str::to_owned);
+            assert!(names.contains(&place), "{place}");
+        }
+        let presets = names.iter().filter(|name| name.starts_with("resources/") && name.ends_with(".json")).count();
+        assert_eq!(sources.iter().filter(|source| source.ends_with(".ssv")).count(), presets);
+        assert!(presets >= 12);
     }
 }
 
@@ -90,7 +114,7 @@ fn a_platform_has_one_binary() {
     let directory = workplace("twice");
     let binaries = vec![library(&directory, "win64").0, library(&directory, "win64").0];
     let error = package::write(&directory.join("twice.fmu"), &contents(binaries)).unwrap_err();
-    assert_eq!(error.to_string(), "two binaries for win64");
+    assert_eq!(error.to_string(), "two binaries are to become binaries/win64/wheelrail.dll");
 }
 
 #[test]
@@ -116,7 +140,7 @@ fn the_command_line_refuses_unknown_platforms_with_the_list_of_known_ones() {
 #[test]
 fn a_binary_named_for_this_machine_takes_the_place_of_the_library() {
     let directory = workplace("named");
-    let (own, fmu) = (package::platform().unwrap(), directory.join("named.fmu"));
+    let (own, fmu) = (platform::own_platform().unwrap().three, directory.join("named.fmu"));
     let (_, text) = library(&directory, own);
     let output = Command::new(env!("CARGO_BIN_EXE_wheelrail"))
         .current_dir(env!("CARGO_MANIFEST_DIR"))
@@ -170,5 +194,5 @@ fn a_file_that_is_no_library_is_refused() {
     fs::write(&file, "time,drive.moment").unwrap();
     let binaries = vec![Binary::new("linux64", &file).unwrap()];
     let error = package::write(&directory.join("none.fmu"), &contents(binaries)).unwrap_err().to_string();
-    assert!(error.contains("table.csv") && error.contains("linux64"), "{error}");
+    assert!(error.contains("table.csv") && error.contains("x86_64-linux"), "{error}");
 }

@@ -40,6 +40,12 @@ pub trait Slave: Sized + 'static {
     /// computed; the model then stands where it was.
     fn step(&mut self, start: f64, h: f64, life: &Life) -> Outcome;
 
+    /// Simulates from `start` over at most `h` \[s], to an event that its master wants to know of; returns the time it took, exactly
+    /// `h` without one. Errors are those of [`Slave::step`].
+    fn step_to_event(&mut self, start: f64, h: f64, life: &Life) -> Outcome<f64> {
+        self.step(start, h, life).map(|()| h)
+    }
+
     /// True if repeating the last, discarded step is pointless.
     fn is_hopeless(&self) -> bool {
         false
@@ -101,7 +107,7 @@ pub trait ScalarAccess: Slave {
     }
 }
 
-/// A slave between `fmi2Instantiate` and `fmi2FreeInstance`: a model with its life, without a word of C.
+/// A slave between its instantiation and its release: a model with its life, without a word of C.
 ///
 /// Every refused call leaves the instance as it was, so a master may report the error and go on.
 pub struct Instance<S: Slave> {
@@ -118,6 +124,11 @@ impl<S: Slave> Instance<S> {
     /// Runs long computations by `aside` from now on.
     pub fn compute_on(&mut self, aside: Aside) {
         self.life.aside = aside;
+    }
+
+    /// Lets steps end early, at events.
+    pub fn allow_early_return(&mut self, allowed: bool) {
+        self.life.early_return = allowed;
     }
 
     /// Takes the name by which the master knows the instance.
@@ -219,14 +230,18 @@ impl<S: Slave> Instance<S> {
         Ok(())
     }
 
-    /// Simulates from the communication point `start` over `h` \[s] with the inputs set now.
+    /// Simulates from the communication point `start` over `h` \[s] with the inputs set now, or to an event where steps may end
+    /// early. The time reached is that of [`Instance::last_successful_time`].
     pub fn do_step(&mut self, start: f64, h: f64) -> Outcome {
         self.life.allow(Call::DoStep)?;
         self.life.check_step(start, h, S::LONGEST_STEP)?;
-        let done = self.slave.step(start, h, &self.life);
+        let done = match self.life.early_return {
+            true => self.slave.step_to_event(start, h, &self.life),
+            false => self.slave.step(start, h, &self.life).map(|()| h),
+        };
         match &done {
-            Ok(()) => {
-                self.life.time = start + h;
+            Ok(reached) => {
+                self.life.time = start + reached;
                 (self.life.phase, self.life.last_step) = (Phase::StepComplete, Status::Ok);
             }
             Err(error) if error.status == Status::Discard => {
@@ -234,7 +249,7 @@ impl<S: Slave> Instance<S> {
             }
             Err(_) => {}
         }
-        done
+        done.map(drop)
     }
 
     /// Copy of everything that is needed to continue from here.

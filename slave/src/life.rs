@@ -15,6 +15,7 @@ pub struct Life {
     pub(crate) log: Log,
     pub(crate) name: String,
     pub(crate) aside: Aside,
+    pub(crate) early_return: bool,
     pub(crate) phase: Phase,
     pub(crate) time: f64,
     pub(crate) stop: Option<f64>,
@@ -25,10 +26,19 @@ impl Life {
     /// Life of an instance that has just been made.
     pub(crate) fn new(log: Log) -> Life {
         let name = String::new();
-        Life { log, name, aside: here, phase: Phase::Instantiated, time: 0.0, stop: None, last_step: Status::Ok }
+        Life {
+            log,
+            name,
+            aside: here,
+            early_return: false,
+            phase: Phase::Instantiated,
+            time: 0.0,
+            stop: None,
+            last_step: Status::Ok,
+        }
     }
 
-    /// Returns to the state after instantiation; log, name and thread stay.
+    /// Returns to the state after instantiation; log, name, thread and early return stay.
     pub(crate) fn reset(&mut self) {
         (self.phase, self.time, self.stop, self.last_step) = (Phase::Instantiated, 0.0, None, Status::Ok);
     }

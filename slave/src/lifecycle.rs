@@ -1,4 +1,5 @@
-//! Legal calls in each phase of life: the state machine of FMI 2.0, section 4.2.4, as data.
+//! Legal calls in each phase of life: the state machine of FMI 2.0, section 4.2.4, as data. Functions of FMI 3.0 are legal
+//! where those of the same purpose are.
 
 use serde::{Deserialize, Serialize};
 
@@ -37,6 +38,8 @@ pub enum Call {
     Reset,
     /// `fmi2GetReal`, `…Integer`, `…Boolean`, `…String`.
     Get,
+    /// `fmi3GetFloat64`, `…Int32`, `…Int64`, `…Boolean`, `…String`: start values before initialization as well.
+    GetOrStart,
     /// `fmi2SetReal`, `…Integer`, `…Boolean`, `…String`; parameters only before the first step.
     Set,
     /// `fmi2GetFMUstate` and its family, including serialization.
@@ -74,6 +77,7 @@ impl Call {
             Call::ExitInitializationMode => INITIALIZATION,
             Call::Terminate | Call::DoStep => COMPLETE | FAILED,
             Call::Get | Call::GetDirectionalDerivative => INITIALIZATION | COMPLETE | FAILED | TERMINATED,
+            Call::GetOrStart => ALIVE,
             Call::Set | Call::SetRealInputDerivatives => INSTANTIATED | INITIALIZATION | COMPLETE | FAILED,
             Call::GetRealOutputDerivatives | Call::GetStatus => COMPLETE | FAILED | TERMINATED,
             // Steps are never asynchronous: there is none to cancel.

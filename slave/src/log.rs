@@ -1,6 +1,6 @@
 //! Messages to the master: categories, levels, and errors of calls.
 
-/// Severity of a message and outcome of a call, with the numbers of `fmi2Status`.
+/// Severity of a message and outcome of a call, with the numbers of `fmi2Status` and `fmi3Status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(C)]
 pub enum Status {
@@ -73,17 +73,24 @@ impl CallError {
 /// Receiver of messages: status, category, text.
 pub type Sink = Box<dyn Fn(Status, &str, &str)>;
 
-/// Filter of messages by category. Warnings, discarded steps, errors and worse always pass; everything else must be
-/// asked for.
+/// Filter of messages by category. Warnings, discarded steps, errors and worse pass unasked; everything else must be asked
+/// for.
 pub struct Log {
     sink: Sink,
     enabled: [bool; CATEGORIES.len()],
+    /// Messages of this status or a worse one pass unasked.
+    loud: Status,
 }
 
 impl Log {
     /// Passes messages to `sink`; `on`: those of all categories.
     pub fn new(sink: Sink, on: bool) -> Log {
-        Log { sink, enabled: [on; CATEGORIES.len()] }
+        Log { sink, enabled: [on; CATEGORIES.len()], loud: Status::Warning }
+    }
+
+    /// The same log, in which only messages of this status or a worse one pass unasked.
+    pub fn quiet_below(self, loud: Status) -> Log {
+        Log { loud, ..self }
     }
 
     /// Switches all categories when none is named; otherwise only the named ones are on, or these off.
@@ -116,7 +123,7 @@ impl Log {
 
     fn send(&self, status: Status, category: &str, message: &str) {
         let index = CATEGORIES.iter().position(|(name, _)| *name == category);
-        if status >= Status::Warning || index.is_some_and(|i| self.enabled[i]) {
+        if status >= self.loud || index.is_some_and(|i| self.enabled[i]) {
             (self.sink)(status, category, message);
         }
     }
@@ -143,6 +150,18 @@ mod tests {
         log.report(Status::Warning, "");
         log.report(Status::Error, "");
         assert_eq!(*seen.borrow(), ["logStatusWarning", "logStatusError"]);
+    }
+
+    #[test]
+    fn a_quiet_log_passes_errors_and_what_has_been_asked_for() {
+        let (log, seen) = recorder(false);
+        let mut log = log.quiet_below(Status::Error);
+        let all = [Status::Ok, Status::Warning, Status::Discard, Status::Error, Status::Fatal];
+        all.iter().for_each(|status| log.report(*status, ""));
+        assert_eq!(*seen.borrow(), ["logStatusError", "logStatusFatal"]);
+        log.switch(true, &[]).unwrap();
+        all.iter().for_each(|status| log.report(*status, ""));
+        assert_eq!(seen.borrow().len(), 7);
     }
 
     #[test]

@@ -21,7 +21,22 @@ impl Type {
     pub const ALL: [Type; 4] = [Type::Real, Type::Integer, Type::Boolean, Type::String];
 }
 
-/// Value of a scalar variable.
+/// Types of FMI 3.0 that variables have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ElementType {
+    /// `fmi3Float64`.
+    Float64,
+    /// `fmi3Int32`.
+    Int32,
+    /// `fmi3Int64`: the number of an item of an enumeration.
+    Int64,
+    /// `fmi3Boolean`.
+    Boolean,
+    /// `fmi3String`.
+    String,
+}
+
+/// Value of a scalar variable, or of an element of an array.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Scalar {
     /// `fmi2Real`.

@@ -79,7 +79,7 @@ use std::ffi::{CStr, c_int};
 use std::mem::{offset_of, transmute};
 use std::ptr;
 use wheelrail_slave::Status;
-use wheelrail_slave::c_abi::types::{self as ours, CallbackFunctions, Question, fmi2Component, fmi2String};
+use wheelrail_slave::c_abi::v2::types::{self as ours, CallbackFunctions, Question, fmi2Component, fmi2String};
 
 /// The type that the header gives an argument: another than ours only for enumerations and for structs with them.
 macro_rules! declared {

@@ -3,6 +3,7 @@
 //! `setting` (variables by name, values as text) → `setup` (preset and settings → slave) → `run` (scenario, steps) →
 //! `simulate`, `steady`, `export`; `model` prepares models under a progress bar, `vtu` writes files for ParaView.
 
+mod describe;
 mod export;
 mod failure;
 mod model;
@@ -20,11 +21,8 @@ mod vtu;
 pub use failure::Failure;
 
 use clap::{Parser, Subcommand};
-use std::io::{self, Write};
-use wheelrail::fmi::reference;
-use wheelrail::fmi::v2::description::{Extent, model_description};
 
-/// Transient wheel-rail rolling contact as an FMI 2.0 co-simulation unit.
+/// Transient wheel-rail rolling contact as a co-simulation unit of FMI 2.0 and 3.0.
 ///
 /// Values are in SI units. Exit codes: 0 done, 1 run failed, 2 wrong arguments.
 #[derive(Parser)]
@@ -37,12 +35,7 @@ pub struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Pack(pack::Pack),
-    /// Print modelDescription.xml, or the reference of all variables.
-    Describe {
-        /// The reference of all variables as Markdown, docs/reference.md.
-        #[arg(long)]
-        markdown: bool,
-    },
+    Describe(describe::Describe),
     Simulate(simulate::Simulate),
     Steady(steady::Steady),
     Export(export::Export),
@@ -53,10 +46,7 @@ impl Arguments {
     pub fn run(self) -> Result<(), Failure> {
         match self.command {
             Command::Pack(pack) => pack.run(),
-            Command::Describe { markdown } => {
-                let text = if markdown { reference::markdown() } else { model_description(Extent::Full)? };
-                Ok(io::stdout().write_all(text.as_bytes())?)
-            }
+            Command::Describe(describe) => describe.run(),
             Command::Simulate(simulate) => simulate.run(),
             Command::Steady(steady) => steady.run(),
             Command::Export(export) => export.run(),

@@ -1,11 +1,13 @@
 //! `pack`: the FMU with everything its presets need.
 
+use super::describe::Described;
 use super::{Failure, model};
 use std::fs;
 use std::path::PathBuf;
-use wheelrail::fmi::package::{self, Binary, Contents, StoredBasis};
+use wheelrail::fmi::package::{self, Contents, StoredBasis};
+use wheelrail::fmi::package_error::PackageError;
+use wheelrail::fmi::platform::{self, Binary};
 use wheelrail::fmi::presets;
-use wheelrail::fmi::v2::description::Extent;
 
 /// Compute what every preset needs and write the FMU.
 #[derive(clap::Args)]
@@ -20,9 +22,8 @@ pub struct Pack {
     /// of this machine takes the place of --library.
     #[arg(long = "binary", value_name = "PLATFORM=FILE")]
     binaries: Vec<Binary>,
-    /// Leave the points of profiles out of the model description; value references and library stay the same.
-    #[arg(long)]
-    no_profiles: bool,
+    #[command(flatten)]
+    interface: Described,
     /// Directory with the presets.
     #[arg(long, default_value = "resources")]
     resources: PathBuf,
@@ -48,16 +49,18 @@ impl Pack {
         if let Some(parent) = self.out.parent() {
             fs::create_dir_all(parent)?;
         }
-        let failed = |error: package::PackageError| Failure::Run(error.to_string());
-        let extent = if self.no_profiles { Extent::WithoutProfiles } else { Extent::Full };
+        let failed = |error: PackageError| Failure::Run(error.to_string());
+        let interface = self.interface.interface();
         let Pack { out, library, mut binaries, resources, reference, sbom, .. } = self;
-        match package::platform() {
+        match platform::own_platform() {
             Ok(own) if binaries.iter().any(|binary| binary.platform() == own) => {}
-            Ok(own) => binaries.insert(0, Binary::new(own, library).map_err(failed)?),
+            Ok(own) if binaries.is_empty() || own.name(interface).is_ok() => {
+                binaries.insert(0, Binary::new(own.three, library).map_err(failed)?);
+            }
             Err(unnamed) if binaries.is_empty() => return Err(failed(unnamed)),
-            Err(_) => {}
+            _ => {}
         }
-        package::write(&out, &Contents { extent, binaries, resources, reference, sbom, bases }).map_err(failed)?;
+        package::write(&out, &Contents { interface, binaries, resources, reference, sbom, bases }).map_err(failed)?;
         println!("{} ({:.1} MB)", out.display(), fs::metadata(&out)?.len() as f64 / 1e6);
         Ok(())
     }

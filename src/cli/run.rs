@@ -5,8 +5,8 @@ use super::scenario::{RATE, Scenario, Values};
 use super::setting::{Setting, find};
 use super::setup::{Setup, failed, wrong};
 use std::path::PathBuf;
+use wheelrail::fmi::description::{DEFAULT_STEP_SIZE, DEFAULT_STOP_TIME};
 use wheelrail::fmi::instance::Instance;
-use wheelrail::fmi::v2::description::{DEFAULT_STEP_SIZE, DEFAULT_STOP_TIME};
 use wheelrail::fmi::variable::{Kind, Value};
 use wheelrail::simulation::LONGEST_STEP;
 

@@ -105,6 +105,9 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "J/(kg.K)", quantity: "SpecificHeat", exponents: [0, 2, -2, 0, -1], displays: &[] },
     Unit { name: "J/kg", quantity: "SpecificEnergy", exponents: [0, 2, -2, 0, 0], displays: &[times("kJ/kg", 1e-3)] },
     Unit { name: "1/m", quantity: "Curvature", exponents: [0, -1, 0, 0, 0], displays: &[] },
+    Unit { name: "N/s", quantity: "ForceRate", exponents: [1, 1, -3, 0, 0], displays: &[] },
+    Unit { name: "N.m/s", quantity: "MomentRate", exponents: [1, 2, -3, 0, 0], displays: &[] },
+    Unit { name: "W/s", quantity: "PowerRate", exponents: [1, 2, -4, 0, 0], displays: &[] },
     Unit { name: "1/s", quantity: "Rate", exponents: [0, 0, -1, 0, 0], displays: &[] },
     Unit { name: "s/m", quantity: "ChangePerVelocity", exponents: [0, -1, 1, 0, 0], displays: &[] },
 ];

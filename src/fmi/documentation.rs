@@ -1,11 +1,11 @@
 //! `documentation/index.html` of the FMU: conventions with a figure, use, the table of variables, and links to all
 //! [`pages`](super::pages).
 
+use super::interface::Interface;
 use super::pages::{Page, escaped, pages};
 use super::presets;
 use super::reference::{self, Cells, RETIREMENT, SECTIONS};
 use super::table::enumerations;
-use super::v2::description;
 use super::variable::Variable;
 use crate::config::retired::{RETIRED, Retired};
 use std::fmt::Write;
@@ -17,10 +17,11 @@ const INTRODUCTION: &str = include_str!("../../docs/fmu.html");
 const SIGNS: &str = include_str!("../../docs/signs.svg");
 
 /// The page as it stands in the FMU.
-pub fn index_html() -> String {
+pub fn index_html(interface: Interface) -> String {
     let mut html = INTRODUCTION
         .replace("{version}", env!("CARGO_PKG_VERSION"))
-        .replace("{guid}", &description::guid())
+        .replace("{fmi}", interface.version())
+        .replace("{identity}", &identity(interface))
         .replace("{signs}", SIGNS)
         .replace("{preset}", presets::DEFAULT)
         .replace("{theory}", &links(Page::is_theory))
@@ -50,6 +51,15 @@ pub fn index_html() -> String {
     }
     html.push_str("</table></div>\n</body>\n</html>\n");
     html
+}
+
+/// Name and value of the identity of the description.
+fn identity(interface: Interface) -> String {
+    let name = match interface {
+        Interface::Two(_) => "GUID",
+        Interface::Three => "instantiation token",
+    };
+    format!("{name} <code>{}</code>", interface.identity())
 }
 
 /// Title of a table, a sentence about it, and its head.

@@ -1,22 +1,31 @@
-//! FMI 2.0 co-simulation around [`crate::simulation`]: one table of variables, everything else follows from it.
+//! FMI 2.0 and 3.0 co-simulation around [`crate::simulation`]: one table of variables, everything else follows from it.
 //!
 //! `table` (every variable once) → `settings` (values that a master has set) → `instance` (the wheel as a slave),
-//! `snapshot` (its states as bytes) → `v2` (scalar variables, description, GUID and the exported C functions) →
-//! `documentation` and `pages` (HTML), `reference` (Markdown) and `package`, which zips the FMU. Life cycle, log,
+//! `snapshot` (its states as bytes) → `description` (what both descriptions say alike) → `v2` and `v3` (variables, description
+//! and the exported C functions of each version) →
+//! `interface` (which of them a packed FMU has) → `documentation` and `pages` (HTML), `reference` (Markdown), `platform` and
+//! `package`, which zips the FMU. Life cycle, log,
 //! states and C functions are those of the crate [`wheelrail_slave`].
 //!
-//! Source of all rules: *Functional Mock-up Interface for Model Exchange and Co-Simulation*, version 2.0.4.
+//! Sources of all rules: *Functional Mock-up Interface for Model Exchange and Co-Simulation*, version 2.0.4; *Functional
+//! Mock-up Interface Specification*, version 3.0.2.
 
+pub mod description;
 pub mod documentation;
 pub mod instance;
+pub mod interface;
 pub mod package;
+pub mod package_error;
 pub mod pages;
+pub mod platform;
 pub mod presets;
 pub mod reference;
+mod references;
 pub mod settings;
 pub mod snapshot;
 pub mod table;
 pub mod v2;
+pub mod v3;
 pub mod variable;
 
 pub use crate::config::units;

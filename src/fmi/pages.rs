@@ -17,10 +17,11 @@ macro_rules! files {
 }
 
 /// The pages, in the order in which they are read.
-const PAGES: [(&str, &str); 28] = files![include_str:
+const PAGES: [(&str, &str); 29] = files![include_str:
     "profiles.md",
     "patches.md",
     "coupling.md",
+    "versions.md",
     "theory/README.md",
     "theory/ale-balance.md",
     "theory/condensation.md",

@@ -106,7 +106,9 @@ impl ReferenceTable {
 fn level_of(variable: &Variable) -> Level {
     match variable.access {
         Access::Parameter(row) => row.level,
-        Access::Preset | Access::RealInput(_) | Access::ChoiceInput(..) | Access::Output(_) => Level::Basic,
+        Access::Preset | Access::RealInput(_) | Access::Ramp(_) | Access::ChoiceInput(..) | Access::Output(_) => {
+            Level::Basic
+        }
     }
 }
 

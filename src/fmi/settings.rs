@@ -4,7 +4,7 @@ use super::presets;
 use super::table::{find, named, table};
 use super::variable::{Access, Causality, Reference, Value, Variable};
 use crate::config::Config;
-use crate::simulation::{Drive, Inputs};
+use crate::simulation::{Drive, Inputs, RAMP_NUMBERS};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -48,7 +48,7 @@ pub struct Settings {
     pub inputs: SetValues,
     /// Present values that inputs took over when a control was switched to them; explicit ones override them.
     pub bumpless: SetValues,
-    /// Time derivatives of the inputs during the next step.
+    /// Time derivatives of the inputs during the next step, besides those that are inputs themselves.
     pub rates: Drive,
 }
 
@@ -107,7 +107,8 @@ impl Settings {
                 variable.set_input(&mut inputs, value);
             }
         }
-        Inputs { rate: self.rates, ..inputs }
+        // One of both is zero.
+        Inputs { rate: inputs.rate.zip(&self.rates, |ramp, derivative| ramp + derivative), ..inputs }
     }
 
     /// Sets one variable, within its own range and, after the end of initialization, only what may change then.
@@ -129,7 +130,11 @@ impl Settings {
                 *field(&mut self.rates) = 0.0;
                 self.inputs.insert(row.reference, value);
             }
-            (Access::ChoiceInput(..), value) => drop(self.inputs.insert(row.reference, value)),
+            (Access::Ramp(field), Value::Real(ramp)) if ramp != 0.0 && *field(&mut self.rates) != 0.0 => {
+                let why = "has been given to the next step by a derivative of its input: give one of both";
+                return Err(format!("{} {why}", row.name));
+            }
+            (Access::Ramp(_) | Access::ChoiceInput(..), value) => drop(self.inputs.insert(row.reference, value)),
             (_, value) => {
                 self.parameters.insert(row.reference, value);
                 if !early {
@@ -140,14 +145,21 @@ impl Settings {
         Ok(())
     }
 
-    /// Keeps the values at the end of a ramp as the new inputs.
-    pub fn hold(&mut self, mut end: Drive) {
-        if self.rates == Drive::default() {
+    /// Name of the input that gives the time derivative of a real input, if it is set to other than zero.
+    pub fn ramp_of(&self, input: &Variable) -> Option<&'static str> {
+        let ramp = find(input.reference + RAMP_NUMBERS).filter(|row| matches!(row.access, Access::Ramp(_)))?;
+        let value = self.inputs.get(&ramp.reference)?;
+        (*value != Value::Real(0.0)).then_some(ramp.name)
+    }
+
+    /// Keeps the values at the end of ramps as the new inputs; derivatives that are no inputs themselves go.
+    pub fn hold(&mut self, mut rates: Drive, mut end: Drive) {
+        if rates == Drive::default() {
             return;
         }
         for variable in table() {
             if let Access::RealInput(field) = variable.access
-                && *field(&mut self.rates) != 0.0
+                && *field(&mut rates) != 0.0
             {
                 self.inputs.insert(variable.reference, Value::Real(*field(&mut end)));
             }

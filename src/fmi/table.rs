@@ -5,18 +5,19 @@
 //! [`Config::rows`]. A profile is one row, an array.
 //!
 //! Value references are fixed numbers by group, so that other people's scripts survive new variables: 100 control,
-//! 200 drive, 250 rail, 260 brake, 300 contact, 400 wheel, 500 hub, 600 heat, 700 damage, 800 solver, 1000 parameters,
+//! 200 drive, 250 rail, 260 brake, their time derivatives 20 more, 300 contact, 400 wheel, 500 hub, 600 heat, 700 damage, 800 solver, 1000 parameters,
 //! 10000 profiles. Signs: x in travel direction, y up, `omega > 0` rolls forward, `contact.*` forces act on the wheel.
 
 use super::units;
 use super::variable::{Access, Enumeration, Kind, Reference, Start, Variable};
 use crate::config::Config;
-use crate::simulation::{Drive, Inputs, Outputs, Read};
+use crate::config::retired::{self, Retired};
+use crate::simulation::{Drive, Inputs, Outputs, Read, STEEPEST};
 use std::array::from_fn;
 use std::sync::OnceLock;
 
 /// Number of rows: the preset, parameters, inputs and outputs.
-const COUNT: usize = 1 + Config::COUNT + Inputs::CONTROLS + Drive::ROWS.len() + Outputs::ROWS.len();
+const COUNT: usize = 1 + Config::COUNT + Inputs::CONTROLS + Drive::ROWS.len() + Drive::RAMPS + Outputs::ROWS.len();
 
 /// All rows: inputs, outputs, parameters by their numbers, profiles.
 pub fn table() -> &'static [Variable] {
@@ -39,6 +40,13 @@ pub fn find(reference: Reference) -> Option<&'static Variable> {
     });
     let position = order.binary_search_by_key(&reference, |entry| entry.0).ok()?;
     Some(&table()[order[position].1])
+}
+
+/// The refusal of a value reference that no variable has: that of a retired parameter is refused by its name.
+pub fn no_such_variable(reference: Reference) -> String {
+    let unknown = || format!("value reference {reference} is unknown");
+    let named = |retired: &Retired| format!("value reference {reference}: {retired}");
+    retired::numbered(reference).map_or_else(unknown, named)
 }
 
 /// Row with the given name.
@@ -74,7 +82,12 @@ fn inputs() -> Vec<Variable> {
     let values = Drive::ROWS.iter().map(|d| {
         row(d.number, d.name, real(d.measure, [d.low, d.high], d.nominal), Access::RealInput(d.field), d.text)
     });
-    let mut rows: Vec<Variable> = controls.chain(values).collect();
+    let ramps = Drive::ROWS.iter().filter_map(|d| {
+        let ramp = d.ramp?;
+        let kind = real(ramp.measure, [-STEEPEST, STEEPEST], ramp.nominal);
+        Some(row(ramp.number, ramp.name, kind, Access::Ramp(d.field), ramp.text))
+    });
+    let mut rows: Vec<Variable> = controls.chain(values).chain(ramps).collect();
     rows.sort_by_key(|row| row.reference);
     rows
 }

@@ -6,6 +6,7 @@ use crate::simulation::{Drive, Inputs, OutputRow, Outputs, Read};
 
 pub use crate::config::value::{Enumeration, Kind, Value};
 pub use wheelrail_slave::Reference;
+use wheelrail_slave::Scalar;
 
 /// Place of the value of a variable. Parameters are fixed or tunable, inputs and real outputs continuous, the rest
 /// discrete.
@@ -17,6 +18,8 @@ pub enum Access {
     Parameter(&'static Row<Config>),
     /// A real input.
     RealInput(fn(&mut Drive) -> &mut f64),
+    /// The time derivative of a real input.
+    Ramp(fn(&mut Drive) -> &mut f64),
     /// A choice between partners: getter and setter, which ignores values of another type.
     ChoiceInput(fn(&Inputs) -> Value, fn(&mut Inputs, &Value)),
     /// An output.
@@ -72,9 +75,23 @@ impl Variable {
     pub fn causality(&self) -> Causality {
         match self.access {
             Access::Preset | Access::Parameter(_) => Causality::Parameter,
-            Access::RealInput(_) | Access::ChoiceInput(..) => Causality::Input,
+            Access::RealInput(_) | Access::Ramp(_) | Access::ChoiceInput(..) => Causality::Input,
             Access::Output(_) => Causality::Output,
         }
+    }
+
+    /// The elements of an array, whose references follow its own; a scalar itself.
+    pub fn elements(&self) -> Vec<Variable> {
+        let (Access::Output(output), Some(_)) = (self.access, self.dimension) else { return vec![*self] };
+        let element = |(point, &(name, description))| Variable {
+            reference: self.reference + 1 + point as Reference,
+            name,
+            dimension: None,
+            element: Some(point),
+            description,
+            ..*self
+        };
+        output.points.iter().enumerate().map(element).collect()
     }
 
     /// Value of a parameter; `None` for other variables.
@@ -97,6 +114,7 @@ impl Variable {
     pub fn input(&self, inputs: &mut Inputs) -> Option<Value> {
         match self.access {
             Access::RealInput(field) => Some(Value::Real(*field(&mut inputs.drive))),
+            Access::Ramp(field) => Some(Value::Real(*field(&mut inputs.rate))),
             Access::ChoiceInput(get, _) => Some(get(inputs)),
             _ => None,
         }
@@ -106,6 +124,7 @@ impl Variable {
     pub fn set_input(&self, inputs: &mut Inputs, value: &Value) {
         match (self.access, value) {
             (Access::RealInput(field), Value::Real(v)) => *field(&mut inputs.drive) = *v,
+            (Access::Ramp(field), Value::Real(v)) => *field(&mut inputs.rate) = *v,
             (Access::ChoiceInput(_, set), value) => set(inputs, value),
             _ => {}
         }
@@ -141,5 +160,31 @@ impl Variable {
     /// Refuses a value of the wrong type, not finite or outside the declared range; the text names all three.
     pub fn check(&self, value: &Value) -> Result<(), String> {
         self.kind.check(self.name, value)
+    }
+}
+
+impl From<Scalar> for Value {
+    fn from(scalar: Scalar) -> Self {
+        match scalar {
+            Scalar::Real(value) => Value::Real(value),
+            Scalar::Integer(value) => Value::Integer(value),
+            Scalar::Boolean(value) => Value::Boolean(value),
+            Scalar::String(value) => Value::String(value),
+        }
+    }
+}
+
+/// Arrays are no scalars: their elements are.
+impl TryFrom<Value> for Scalar {
+    type Error = ();
+
+    fn try_from(value: Value) -> Result<Self, ()> {
+        match value {
+            Value::Real(value) => Ok(Scalar::Real(value)),
+            Value::Integer(value) => Ok(Scalar::Integer(value)),
+            Value::Boolean(value) => Ok(Scalar::Boolean(value)),
+            Value::String(value) => Ok(Scalar::String(value)),
+            Value::Reals(_) => Err(()),
+        }
     }
 }

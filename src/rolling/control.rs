@@ -108,7 +108,30 @@ pub struct DriveRow {
     pub text: &'static str,
     /// The value.
     pub field: fn(&mut Drive) -> &mut f64,
+    /// Input that is its time derivative, of forces, friction and heat: what is prescribed as a motion moves linearly anyway.
+    pub ramp: Option<RampRow>,
 }
+
+/// The row of the time derivative of a real input, an input as well.
+#[derive(Clone, Copy, Debug)]
+pub struct RampRow {
+    /// Fixed number: [`RAMP_NUMBERS`] more than that of the input.
+    pub number: u32,
+    /// Name in the form `group.name`.
+    pub name: &'static str,
+    /// Unit.
+    pub measure: Measure,
+    /// Usual size.
+    pub nominal: f64,
+    /// Meaning, plain text.
+    pub text: &'static str,
+}
+
+/// Distance of the number of a ramp from that of its input.
+pub const RAMP_NUMBERS: u32 = 20;
+
+/// Largest time derivative that is an input, in units of the input per second.
+pub const STEEPEST: f64 = 1e15;
 
 impl DriveRow {
     /// Heat that a source brings: of all inputs these alone are powers.
@@ -133,12 +156,24 @@ impl DriveRow {
 macro_rules! inputs {
     (@display) => { None };
     (@display $display:literal) => { Some($display) };
+    (@ramp $number:literal $name:expr, $nominal:literal) => { None };
+    (@ramp $number:literal $name:expr, $nominal:literal $unit:literal) => {
+        Some(RampRow {
+            number: $number + RAMP_NUMBERS,
+            name: concat!($name, "_rate"),
+            measure: Measure { unit: $unit, display: None },
+            nominal: 10.0 * $nominal,
+            text: concat!(
+                "Time derivative of ", $name, " during the coming steps, in which it ramps from the value it has; unset: it is held"
+            ),
+        })
+    };
     (
         controls { $( $choice_number:literal $choice:ident: $Choice:ty, $choice_text:literal; )* }
         values {
             $(
                 $number:literal $field:ident of $group:literal, in $unit:literal $(as $display:literal)?,
-                    from $low:literal to $high:literal, nominal $nominal:literal, $text:literal;
+                    from $low:literal to $high:literal, nominal $nominal:literal $(ramps in $per_second:literal)?, $text:literal;
             )*
         }
     ) => {
@@ -164,8 +199,21 @@ macro_rules! inputs {
                     nominal: $nominal,
                     text: $text,
                     field: |drive| &mut drive.$field,
+                    ramp: inputs!(
+                        @ramp $number concat!($group, ".", stringify!($field)), $nominal $($per_second)?
+                    ),
                 },
             )*];
+
+            /// Number of inputs that have their time derivative as another input.
+            pub const RAMPS: usize = {
+                let (mut count, mut k) = (0, 0);
+                while k < COUNT {
+                    count += Self::ROWS[k].ramp.is_some() as usize;
+                    k += 1;
+                }
+                count
+            };
 
             /// The values in the order of [`Drive::ROWS`].
             pub fn values(&self) -> [f64; COUNT] {
@@ -229,24 +277,24 @@ inputs! {
         200 omega of "drive", in "rad/s" as "rpm", from -2e4 to 2e4, nominal 60.0,
             "Angular velocity, forward rolling positive; unset: from initial.velocity and initial.creepage, or \
              without creepage";
-        201 moment of "drive", in "N.m" as "kN.m", from -1e9 to 1e9, nominal 1e4,
+        201 moment of "drive", in "N.m" as "kN.m", from -1e9 to 1e9, nominal 1e4 ramps in "N.m/s",
             "Driving moment on the hub, forward positive (braking negative)";
         202 velocity of "drive", in "m/s" as "km/h", from -200.0 to 200.0, nominal 30.0,
             "Travel velocity of the wheel centre, positive in x; unset: initial.velocity";
-        203 force of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4,
+        203 force of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4 ramps in "N/s",
             "Horizontal driving force on the hub, positive in x";
-        204 load of "drive", in "N" as "kN", from 0.0 to 1e9, nominal 1e5,
+        204 load of "drive", in "N" as "kN", from 0.0 to 1e9, nominal 1e5 ramps in "N/s",
             "Vertical load on the hub, pressing down positive, the weight of wheel and axle included; unset: model.nominal_load";
         205 displacement of "drive", in "m" as "mm", from -0.1 to 0.1, nominal 1e-4,
             "Hub height above just touching a rail of elevation 0, up positive (pressed: negative); unset: the height at which \
              the wheel carries drive.load at the start";
-        207 load_change of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4,
+        207 load_change of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4 ramps in "N/s",
             "Vertical load on the hub in addition to drive.load, pressing down positive: what a suspension adds to the static \
              load. Masters whose connections are zero before the first step keep the load at the start";
         208 lateral_velocity of "drive", in "m/s" as "mm/s", from -50.0 to 50.0, nominal 0.1,
             "Lateral velocity of the hub in the plane of contact, to the right positive, with contact.lateral: velocity times angle of \
              attack, and what the wheelset moves sideways";
-        209 lateral_force of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4,
+        209 lateral_force of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4 ramps in "N/s",
             "Lateral force on the hub in the plane of contact, to the right positive, with contact.lateral";
         210 spin of "drive", in "1/m", from -100.0 to 100.0, nominal 0.1,
             "Spin of the wheel on the rail over its velocity, with contact.lateral: seen from above it turns clockwise on the rail \
@@ -254,12 +302,12 @@ inputs! {
         211 contact_angle of "drive", in "rad" as "deg", from -1.5 to 1.5, nominal 0.05,
             "Angle between the plane of contact and the axle, with contact.lateral: positive where the plane rises to the right, as that of \
              a right-hand wheel does. The turning wheel spins in this plane with minus wheel.omega times the sine";
-        250 friction of "rail", in "1", from 0.0 to 10.0, nominal 0.3,
+        250 friction of "rail", in "1", from 0.0 to 10.0, nominal 0.3 ramps in "1/s",
             "Friction coefficient available now; unset: friction.coefficient";
-        251 temperature of "rail", in "K" as "degC", from 0.0 to 1e4, nominal 300.0,
+        251 temperature of "rail", in "K" as "degC", from 0.0 to 1e4, nominal 300.0 ramps in "K/s",
             "Absolute temperature of the rail that arrives at the contact, uniform over its depth. A change is \
              that of all rail ahead of the contact and comes under the wheel with the way; unset: thermal.reference";
-        252 slope of "rail", in "1" as "%", from -0.5 to 0.5, nominal 0.01,
+        252 slope of "rail", in "1" as "%", from -0.5 to 0.5, nominal 0.01 ramps in "1/s",
             "Gradient of the track, rising in x positive: the weight of all masses that move in x pulls the wheel along it, \
              downhill; drive.load stays normal to the track";
         253 elevation of "rail", in "m" as "mm", from -0.1 to 0.1, nominal 1e-3,
@@ -270,9 +318,9 @@ inputs! {
             "Rate of rail.elevation at the end of the step: velocity times inclination of the rail under the wheel. A master that \
              knows the track gives it, and steps of a tenth of a wave are short enough; 0: that of the parabola through this height \
              and those of the two steps before, for which steps should be a thirtieth of a wave";
-        206 tread_heat of "drive", in "W" as "kW", from 0.0 to 1e9, nominal 1e4,
+        206 tread_heat of "drive", in "W" as "kW", from 0.0 to 1e9, nominal 1e4 ramps in "W/s",
             "Heat of the brake blocks into the tread";
-        260 torque of "brake", in "N.m" as "kN.m", from 0.0 to 1e9, nominal 1e4,
+        260 torque of "brake", in "N.m" as "kN.m", from 0.0 to 1e9, nominal 1e4 ramps in "N.m/s",
             "Strength of the brake: its moment opposes the rotation, and holds the wheel at rest as far as that takes no \
              more; acts beside drive.moment, and not while control.rotation prescribes drive.omega";
     }
@@ -292,6 +340,21 @@ pub struct InputError {
     pub high: f64,
     /// Unit of all three.
     pub unit: &'static str,
+}
+
+/// Direction in which inputs change: their values at the start of a step, and their time derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Direction {
+    /// Components of the values.
+    pub drive: Drive,
+    /// Components of the time derivatives.
+    pub rate: Drive,
+}
+
+impl From<&Drive> for Direction {
+    fn from(drive: &Drive) -> Self {
+        Direction { drive: *drive, rate: Drive::default() }
+    }
 }
 
 impl Drive {
@@ -319,13 +382,25 @@ impl Drive {
 }
 
 impl Inputs {
-    /// Refuses inputs out of range, infinite or not a number; rates only need to be finite.
+    /// The inputs a distance away along a direction.
+    pub fn along(&self, direction: &Direction, by: f64) -> Self {
+        let away = |value: f64, component: f64| value + by * component;
+        let (drive, rate) = (self.drive.zip(&direction.drive, away), self.rate.zip(&direction.rate, away));
+        Inputs { drive, rate, ..*self }
+    }
+
+    /// Refuses inputs out of range, infinite or not a number; rates of motions only need to be finite.
     pub fn validate(&self) -> Result<(), InputError> {
         self.drive.validate()?;
         for (row, value) in Drive::ROWS.iter().zip(self.rate.values()) {
             if !value.is_finite() {
                 let (low, high) = (f64::NEG_INFINITY, f64::INFINITY);
                 return Err(InputError { name: row.rate_name, value, low, high, unit: "1" });
+            }
+            if let Some(RampRow { name, measure, .. }) = row.ramp
+                && value.abs() > STEEPEST
+            {
+                return Err(InputError { name, value, low: -STEEPEST, high: STEEPEST, unit: measure.unit });
             }
         }
         Ok(())

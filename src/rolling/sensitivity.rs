@@ -7,7 +7,7 @@
 //! perturbation is reduced. Between changes of state the function is analytic, and the difference quotient has about
 //! seven correct digits; at a kink and at the end of a range it falls back to the derivative of one side.
 
-use super::control::{Drive, Inputs};
+use super::control::{Direction, Drive, Inputs};
 use super::error::StepError;
 use super::line::Line;
 use super::model::{RollingModel, Workspace};
@@ -92,12 +92,17 @@ pub fn difference(
     tuning: &Tuning,
     state: &State,
     origin: &Origin,
-    direction: &Drive,
+    direction: &Direction,
     workspace: &mut Workspace,
 ) -> Result<Difference, StepError> {
     let (Origin::Stationary(inputs) | Origin::Step { inputs, .. }) = origin;
-    let (scales, direction) = (scales(model, inputs, state), &model.wheel.sideways.acting(direction));
-    let size = direction.zip(&scales, |d, s| (d / s).abs()).values().into_iter().fold(0.0, f64::max);
+    let acting = |drive: &Drive| model.wheel.sideways.acting(drive);
+    let direction = &Direction { drive: acting(&direction.drive), rate: acting(&direction.rate) };
+    let scales = scales(model, inputs, state);
+    let largest = |of: &Drive| of.zip(&scales, |d, s| (d / s).abs()).values().into_iter().fold(0.0, f64::max);
+    // A rate acts over the length of the step: not at all on a stationary state.
+    let length = if let Origin::Step { length, .. } = origin { *length } else { 0.0 };
+    let size = largest(&direction.drive).max(length * largest(&direction.rate));
     let present = Box::new(observe_all(model, state));
     if size == 0.0 {
         return Ok(Difference { low: present.clone(), high: present, width: 1.0 });
@@ -107,9 +112,7 @@ pub fn difference(
     for _ in 0..TRIES {
         let mut beyond_range = false;
         let mut ends = [-1.0, 1.0].map(|sign| {
-            let by = sign * width;
-            let inputs = Inputs { drive: inputs.drive.zip(direction, |value, d| value + by * d), ..*inputs };
-            let end = repeat(model, tuning, origin, &inputs, workspace);
+            let end = repeat(model, tuning, origin, &inputs.along(direction, sign * width), workspace);
             beyond_range |= matches!(end, Err(StepError::Input(_)));
             end.ok().filter(|end| same_branch(model, end, state)).map(|end| Box::new(observe_all(model, &end)))
         });

@@ -1,4 +1,4 @@
-//! `modelDescription.xml` and the GUID, both made from the variables.
+//! `modelDescription.xml` of both versions of FMI, and the identities in them, made from the variables.
 
 use crate::fmi::MODEL_IDENTIFIER;
 use crate::fmi::variable::Variable;
@@ -6,6 +6,7 @@ use crate::fmi::variables::variables;
 use std::fmt::Write;
 use uuid::Uuid;
 use wheelrail_slave::Type;
+use wheelrail_slave::array_access::TIME;
 use wheelrail_slave::log::CATEGORIES;
 
 /// Units of the variables with their attributes of `BaseUnit`.
@@ -27,26 +28,39 @@ const UNITS: [(&str, &str); 15] = [
     ("Pa", r#" kg="1" m="-1" s="-2""#),
 ];
 
-/// Name-based UUID of the description with an empty GUID.
-pub fn guid() -> String {
-    Uuid::new_v5(&Uuid::NAMESPACE_OID, written("").as_bytes()).to_string()
+/// Version of FMI.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Version {
+    /// FMI 2.0.
+    Two,
+    /// FMI 3.0.
+    Three,
+}
+
+/// Identity of the description, a name-based UUID: GUID of FMI 2.0, instantiation token of FMI 3.0.
+pub fn identity(version: Version) -> String {
+    Uuid::new_v5(&Uuid::NAMESPACE_OID, written(version, "").as_bytes()).to_string()
 }
 
 /// The model description as it stands in the FMU.
-pub fn model_description() -> String {
-    written(&guid())
+pub fn model_description(version: Version) -> String {
+    written(version, &identity(version))
 }
 
-fn written(guid: &str) -> String {
+fn written(fmi: Version, identity: &str) -> String {
     let version = env!("CARGO_PKG_VERSION");
+    let (number, argument, capabilities) = match fmi {
+        Version::Two => ("2.0", "guid", "canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\""),
+        Version::Three => ("3.0", "instantiationToken", "canGetAndSetFMUState=\"true\""),
+    };
     let mut xml = format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
-         <fmiModelDescription fmiVersion=\"2.0\" modelName=\"Coach\" guid=\"{guid}\" description=\"Four-axle coach in the \
+         <fmiModelDescription fmiVersion=\"{number}\" modelName=\"Coach\" {argument}=\"{identity}\" description=\"Four-axle coach in the \
          plane with disc brakes and wheel slide protection, for wheels of wheelrail.fmu\" author=\"The wheelrail authors\" \
          version=\"{version}\" license=\"{}\" generationTool=\"wheelrail-coach {version}\" \
          variableNamingConvention=\"structured\">\n\
          \x20 <CoSimulation modelIdentifier=\"{MODEL_IDENTIFIER}\" canHandleVariableCommunicationStepSize=\"true\" \
-         canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\"/>\n",
+         {capabilities}/>\n",
         env!("CARGO_PKG_LICENSE"),
     );
     xml.push_str("  <UnitDefinitions>\n");
@@ -60,24 +74,45 @@ fn written(guid: &str) -> String {
     xml.push_str("  </LogCategories>\n  <DefaultExperiment startTime=\"0.0\" stopTime=\"1.0\" stepSize=\"0.001\"/>\n");
     xml.push_str("  <ModelVariables>\n");
     let table = variables();
-    table.iter().for_each(|variable| scalar(&mut xml, variable));
-    xml.push_str("  </ModelVariables>\n  <ModelStructure>\n");
-    let outputs: Vec<usize> =
-        (1..).zip(&table).filter(|(_, variable)| variable.causality() == "output").map(|(index, _)| index).collect();
-    // The action of the coach in the next step follows from the steps before: outputs depend on no input of the moment.
-    for list in ["Outputs", "InitialUnknowns"] {
-        let _ = writeln!(xml, "    <{list}>");
-        for index in &outputs {
-            let _ = writeln!(xml, "      <Unknown index=\"{index}\" dependencies=\"\"/>");
-        }
-        let _ = writeln!(xml, "    </{list}>");
+    if fmi == Version::Three {
+        let _ = writeln!(
+            xml,
+            "    <Float64 name=\"time\" valueReference=\"{TIME}\" description=\"Communication point\" \
+             causality=\"independent\" variability=\"continuous\" unit=\"s\"/>"
+        );
     }
+    table.iter().for_each(|variable| described(&mut xml, fmi, variable));
+    xml.push_str("  </ModelVariables>\n  <ModelStructure>\n");
+    structure(&mut xml, fmi, &table);
     xml.push_str("  </ModelStructure>\n</fmiModelDescription>\n");
     xml
 }
 
-/// A `ScalarVariable`.
-fn scalar(xml: &mut String, variable: &Variable) {
+/// The outputs. The action of the coach in the next step follows from the steps before: outputs depend on no input of the
+/// moment.
+fn structure(xml: &mut String, fmi: Version, table: &[Variable]) {
+    let outputs = || (1..).zip(table).filter(|(_, variable)| variable.causality() == "output");
+    for (list, element) in [("Outputs", "Output"), ("InitialUnknowns", "InitialUnknown")] {
+        match fmi {
+            Version::Two => {
+                let _ = writeln!(xml, "    <{list}>");
+                for (index, _) in outputs() {
+                    let index: usize = index;
+                    let _ = writeln!(xml, "      <Unknown index=\"{index}\" dependencies=\"\"/>");
+                }
+                let _ = writeln!(xml, "    </{list}>");
+            }
+            Version::Three => {
+                for (_, Variable { reference, .. }) in outputs() {
+                    let _ = writeln!(xml, "    <{element} valueReference=\"{reference}\" dependencies=\"\"/>");
+                }
+            }
+        }
+    }
+}
+
+/// The element of a variable.
+fn described(xml: &mut String, fmi: Version, variable: &Variable) {
     let Variable { reference, name, unit, range: [low, high], start, text, .. } = variable;
     let causality = variable.causality();
     let kind = variable.kind();
@@ -94,9 +129,12 @@ fn scalar(xml: &mut String, variable: &Variable) {
     if causality != "output" {
         let _ = write!(attributes, " min=\"{low:?}\" max=\"{high:?}\" start=\"{start:?}\"");
     }
-    let _ = writeln!(
-        xml,
-        "    <ScalarVariable name=\"{name}\" valueReference=\"{reference}\" description=\"{text}\" \
-         causality=\"{causality}\" variability=\"{variability}\"{initial}><{kind:?}{attributes}/></ScalarVariable>"
+    let what = format!(
+        "name=\"{name}\" valueReference=\"{reference}\" description=\"{text}\" causality=\"{causality}\" \
+         variability=\"{variability}\"{initial}"
     );
+    let _ = match fmi {
+        Version::Two => writeln!(xml, "    <ScalarVariable {what}><{kind:?}{attributes}/></ScalarVariable>"),
+        Version::Three => writeln!(xml, "    <{:?} {what}{attributes}/>", variable.element_type()),
+    };
 }

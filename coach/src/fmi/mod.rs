@@ -1,4 +1,4 @@
-//! FMI 2.0 co-simulation around [`crate::coupling`]: variables, the coach as a slave, model description, C functions.
+//! FMI 2.0 and 3.0 co-simulation around [`crate::coupling`]: variables, the coach as a slave, model description, C functions.
 
 pub mod c_abi;
 pub mod description;

@@ -1,13 +1,17 @@
 //! The coach as a slave: parameters, inputs and the running coach.
 
-use super::description;
+use super::description::{self, Version};
 use super::variable::{Access, Variable};
 use super::variables::{find, variables};
 use crate::AXLES;
 use crate::coupling::{Running, Seen};
 use crate::parameters::Parameters;
+use std::fmt::Debug;
 use std::path::PathBuf;
-use wheelrail_slave::{CallError, Life, Outcome, Reference, Scalar, ScalarAccess, Slave, Type};
+use wheelrail_slave::lifecycle::Phase;
+use wheelrail_slave::{
+    ArrayAccess, CallError, ElementType, Life, Outcome, Reference, Scalar, ScalarAccess, Slave, Type,
+};
 
 /// A coach with what its master has set.
 pub struct CoachSlave {
@@ -57,15 +61,62 @@ impl CoachState {
 }
 
 impl CoachSlave {
-    /// The variable of a reference, refusing other types.
-    fn lookup(&self, reference: Reference, wanted: Type) -> Outcome<&Variable> {
+    /// The variable of a reference.
+    fn variable(&self, reference: Reference) -> Outcome<&Variable> {
         let found = self.table.iter().find(|variable| variable.reference == reference);
-        let variable = found.ok_or_else(|| CallError::error(format!("value reference {reference} is unknown")))?;
-        let (name, theirs) = (&variable.name, variable.kind());
+        found.ok_or_else(|| CallError::error(format!("value reference {reference} is unknown")))
+    }
+
+    /// Refuses a variable that is of another type than the wanted one.
+    fn check_type<T: PartialEq + Debug>(variable: &Variable, theirs: T, wanted: T) -> Outcome {
         if theirs == wanted {
-            return Ok(variable);
+            return Ok(());
         }
+        let Variable { name, reference, .. } = variable;
         Err(CallError::error(format!("{name} (value reference {reference}) is {theirs:?}, not {wanted:?}")))
+    }
+
+    /// Values of variables that `check` admits.
+    fn values(&mut self, references: &[Reference], check: impl Fn(&Variable) -> Outcome) -> Outcome<Vec<Scalar>> {
+        let access = |reference: &Reference| {
+            let variable = self.variable(*reference)?;
+            check(variable).map(|()| variable.access)
+        };
+        let accesses = references.iter().map(access).collect::<Outcome<Vec<_>>>()?;
+        Ok(accesses.into_iter().map(|access| self.state.value(access)).collect())
+    }
+
+    /// Sets variables that `check` admits, all or none.
+    fn set_values(
+        &mut self,
+        references: &[Reference],
+        values: Vec<Scalar>,
+        life: &Life,
+        check: impl Fn(&Variable, &Scalar) -> Outcome,
+    ) -> Outcome {
+        let mut next = self.state.settings.clone();
+        for (reference, value) in references.iter().zip(values) {
+            let variable = self.variable(*reference)?;
+            check(variable, &value)?;
+            let output = || CallError::error(format!("{} is an output and cannot be set", variable.name));
+            let Scalar::Real(number) = value else { return Err(output()) };
+            variable.check(number).map_err(CallError::error)?;
+            match variable.access {
+                Access::Parameter(_) if !life.is_early() => {
+                    let why = "is a fixed parameter and can only be set before the end of initialization";
+                    return Err(CallError::error(format!("{} {why}", variable.name)));
+                }
+                Access::Parameter(row) => next.parameters.value(row).into_iter().for_each(|place| *place = number),
+                Access::Demand => next.demand = number,
+                Access::Seen(axle, field) => *field(&mut next.seen[axle]) = number,
+                _ => return Err(output()),
+            }
+        }
+        if next.parameters != self.state.settings.parameters {
+            self.state.running = None;
+        }
+        self.state.settings = next;
+        Ok(())
     }
 }
 
@@ -108,7 +159,7 @@ impl ScalarAccess for CoachSlave {
     type Value = Scalar;
 
     fn guid() -> String {
-        description::guid()
+        description::identity(Version::Two)
     }
 
     fn name_of(reference: Reference) -> Option<String> {
@@ -116,33 +167,39 @@ impl ScalarAccess for CoachSlave {
     }
 
     fn get(&mut self, references: &[Reference], wanted: Type, _life: &Life) -> Outcome<Vec<Scalar>> {
-        let accesses = references.iter().map(|reference| Ok(self.lookup(*reference, wanted)?.access));
-        let accesses = accesses.collect::<Outcome<Vec<_>>>()?;
-        Ok(accesses.into_iter().map(|access| self.state.value(access)).collect())
+        self.values(references, |variable| Self::check_type(variable, variable.kind(), wanted))
     }
 
     fn set(&mut self, references: &[Reference], values: Vec<Scalar>, life: &Life) -> Outcome {
-        let mut next = self.state.settings.clone();
-        for (reference, value) in references.iter().zip(values) {
-            let variable = self.lookup(*reference, value.of())?;
-            let output = || CallError::error(format!("{} is an output and cannot be set", variable.name));
-            let Scalar::Real(number) = value else { return Err(output()) };
-            variable.check(number).map_err(CallError::error)?;
-            match variable.access {
-                Access::Parameter(_) if !life.is_early() => {
-                    let why = "is a fixed parameter and can only be set before the end of initialization";
-                    return Err(CallError::error(format!("{} {why}", variable.name)));
-                }
-                Access::Parameter(row) => next.parameters.value(row).into_iter().for_each(|place| *place = number),
-                Access::Demand => next.demand = number,
-                Access::Seen(axle, field) => *field(&mut next.seen[axle]) = number,
-                _ => return Err(output()),
+        self.set_values(references, values, life, |variable, value| {
+            Self::check_type(variable, variable.kind(), value.of())
+        })
+    }
+}
+
+/// All variables are scalars.
+impl ArrayAccess for CoachSlave {
+    fn token() -> String {
+        description::identity(Version::Three)
+    }
+
+    fn read(&mut self, references: &[Reference], wanted: ElementType, life: &Life) -> Outcome<Vec<Scalar>> {
+        self.values(references, |variable| {
+            if life.phase() == Phase::Instantiated && variable.causality() == "output" {
+                let why = "is an output, which has no start value: read it from Initialization Mode on";
+                return Err(CallError::error(format!("{} {why}", variable.name)));
             }
+            Self::check_type(variable, variable.element_type(), wanted)
+        })
+    }
+
+    fn write(&mut self, references: &[Reference], wanted: ElementType, values: Vec<Scalar>, life: &Life) -> Outcome {
+        if references.len() != values.len() {
+            let (given, right) = (values.len(), references.len());
+            return Err(CallError::error(format!("nValues = {given}, but these variables have {right} values")));
         }
-        if next.parameters != self.state.settings.parameters {
-            self.state.running = None;
-        }
-        self.state.settings = next;
-        Ok(())
+        self.set_values(references, values, life, |variable, _| {
+            Self::check_type(variable, variable.element_type(), wanted)
+        })
     }
 }

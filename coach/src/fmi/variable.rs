@@ -1,7 +1,7 @@
 //! Variables of the interface.
 
 use crate::coupling::{Driven, Running, Seen};
-use wheelrail_slave::{Reference, Type};
+use wheelrail_slave::{ElementType, Reference, Type};
 
 /// Place of the value of a variable. All variables are real but the valves.
 #[derive(Clone, Copy)]
@@ -40,9 +40,14 @@ pub struct Variable {
 }
 
 impl Variable {
-    /// FMI type.
+    /// Type of FMI 2.0.
     pub fn kind(&self) -> Type {
         if matches!(self.access, Access::Valve(_)) { Type::Integer } else { Type::Real }
+    }
+
+    /// Type of FMI 3.0.
+    pub fn element_type(&self) -> ElementType {
+        if matches!(self.access, Access::Valve(_)) { ElementType::Int32 } else { ElementType::Float64 }
     }
 
     /// FMI causality.

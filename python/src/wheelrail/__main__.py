@@ -126,10 +126,12 @@ def packages(options, scenario):
         raise BadFile(f"--out {options.out}: {error.strerror}") from None
     coach = options.out / "coach.fmu"
     texts = [path for path in map(Path, ("LICENSE-MIT", "LICENSE-APACHE", "docs/LICENSE-THIRD-PARTY")) if path.is_file()]
-    ssp.pack_coach(options.coach / "coach", options.coach / "libcoach.so", coach, texts)
-    with Fmu(options.fmu) as wheel, Fmu(coach) as opened:
-        written = ssp.write(scenario, wheel, opened, (options.fmu, coach), options.out, options.stop, options.step)
-    print("written:", ", ".join(map(str, (coach, *written))))
+    with Fmu(options.fmu) as wheel:
+        version = wheel.description.fmiVersion[0]
+        ssp.pack_coach(options.coach / "coach", options.coach / "libcoach.so", coach, texts, version)
+        with Fmu(coach) as opened:
+            written = ssp.write(scenario, wheel, opened, (options.fmu, coach), options.out, options.stop, options.step)
+    print("written:", ", ".join(str(path) for path in (coach, *written) if path))
 
 
 def rigid(scenario):

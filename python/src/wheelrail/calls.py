@@ -19,7 +19,7 @@ from fmpy import fmi1, fmi2  # as modules, which stay when they are reloaded
 from .values import Refused
 
 PATIENCE = 10.0  # s, at the end of Python, for calls that other threads have not finished
-C_FUNCTION = re.compile(r"^fmi2\w+: ")  # with which the FMU begins refusals
+C_FUNCTION = re.compile(r"^fmi[23]\w+: ")  # with which the FMU begins refusals
 
 
 class Message(str):
@@ -28,14 +28,24 @@ class Message(str):
     status = 0
 
 
-def callbacks(log):
-    """What an instance calls: a logger that fills the list `log` with `Message`s, and memory of the C library."""
+def listener(log):
+    """A logger for an instance of FMI 3.0, which fills the list `log` with `Message`s."""
 
-    @fmi2.fmi2CallbackLoggerTYPE
-    def receive(_environment, _instance, status, _category, message):
-        text = Message(C_FUNCTION.sub("", (message or b"").decode(errors="replace").replace("%%", "%")))
+    def receive(_environment, status, _category, message):
+        text = Message(C_FUNCTION.sub("", (message or b"").decode(errors="replace")))
         text.status = status
         log.append(text)
+
+    return receive
+
+
+def callbacks(log):
+    """What an instance of FMI 2.0 calls: a logger that fills the list `log` with `Message`s, and memory of the C library."""
+    hear = listener(log)
+
+    @fmi2.fmi2CallbackLoggerTYPE
+    def receive(environment, _instance, status, category, message):
+        hear(environment, status, category, (message or b"").replace(b"%%", b"%"))
 
     functions = fmi2.fmi2CallbackFunctions()
     functions.logger = functions.kept = receive

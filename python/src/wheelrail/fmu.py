@@ -1,4 +1,4 @@
-"""One instance of wheelrail.fmu on fmpy's FMU2Slave: variables by name, enumerations by item name, SI units."""
+"""One instance of wheelrail.fmu, of FMI 2.0 or 3.0, on fmpy: variables by name, enumerations by item name, SI units."""
 
 import difflib
 import os
@@ -11,10 +11,10 @@ from xml.etree import ElementTree
 from zipfile import BadZipFile
 
 import fmpy
-from fmpy import fmi2
 
-from .calls import Calls, callbacks
+from .calls import Calls
 from .folder import TemporaryFolder
+from .instances import scalars, unloaded
 from .values import Refused, check_names, kind, plain, saved_state, short, to_fmu
 from .warn import warn
 
@@ -46,11 +46,11 @@ class Fmu:
             self._folder.remove()
             why = (str(failure).splitlines() or [type(failure).__name__])[0]
             raise Refused(f"{path} is no FMU: {why}") from failure
-        if self.description.coSimulation is None or not self.description.fmiVersion.startswith("2"):
+        if self.description.coSimulation is None or self.description.fmiVersion[0] not in "23":
             self._folder.remove()
-            raise Refused(f"{path} is no FMU of FMI 2.0 for co-simulation")
-        self.variables = {v.name: v for v in self.description.modelVariables}
-        notes = ElementTree.parse(Path(self.directory, "modelDescription.xml")).iterfind("VendorAnnotations/Tool//Retired")
+            raise Refused(f"{path} is no FMU of FMI 2.0 or 3.0 for co-simulation")
+        self.variables, self.places = scalars(self.description)
+        notes = ElementTree.parse(Path(self.directory, "modelDescription.xml")).iter("Retired")
         self.retired = {note.get("name"): note.get("refusal") for note in notes}
 
     def variable(self, name):
@@ -279,17 +279,16 @@ class _Closed:
 
 def instance(fmu, name, call):
     """An instance of the FMU's library, which is loaded with it."""
-    d, here = fmu.description, os.getcwd()
+    here = os.getcwd()
     if not Path(fmu.directory).is_dir():
         raise Refused("the FMU is closed: open wheels within `with Fmu() as fmu`")
     try:
-        identifier = d.coSimulation.modelIdentifier
-        slave = fmi2.FMU2Slave(guid=d.guid, unzipDirectory=fmu.directory, modelIdentifier=identifier, instanceName=name)
+        slave = unloaded(fmu, name)
     except Exception as failure:  # fmpy raises plain exceptions
         os.chdir(here)  # where fmpy has left
         raise Refused(f"the library of the FMU cannot be loaded on this machine: {failure}") from failure
     try:
-        call(slave.instantiate, callbacks=callbacks(call.log))
+        call(slave.start, call.log)
     except Exception as failure:
         raise Refused("; ".join(call.log) or str(failure)) from failure
     return slave

@@ -3,7 +3,6 @@
 import importlib
 import json
 import re
-from ctypes import c_double, c_int, c_uint
 from fnmatch import fnmatchcase
 from io import BytesIO
 from math import isclose
@@ -12,12 +11,12 @@ from pathlib import Path
 import numpy as np
 
 from . import output
+from .instances import BUFFERS
 from .values import Refused, kind, short
 
 # Profiles over the depth below the surface; all others lie across the contact patch.
 BELOW = ("depth", "peak_temperature", "temperature_wheel_below", "temperature_rail_below", "temperature_tread_below")
 SAME_TIME = 1e-12  # relative difference of times that is rounding
-_BUFFERS = {"Real": c_double, "Integer": c_int, "Boolean": c_int}
 
 
 class Recorder:
@@ -41,7 +40,7 @@ class Recorder:
         inputs = [v for v in fmu.variables.values() if v.causality == "input" and v not in self.scalars]
         variables = self.scalars + inputs + [point for points in self.arrays.values() for point in points]
         self._inputs = inputs
-        self._readers = [_reader(wheel, sort, variables) for sort in _BUFFERS]
+        self._readers = [_reader(wheel, sort, variables) for sort in BUFFERS]
         self._readers = [reader for reader in self._readers if reader]
         self._depths = wheel.profile("depth") if self._over_depth() else None
         self._settings = _settings(wheel)
@@ -298,13 +297,11 @@ def _reader(wheel, sort, variables):
     references = [v.valueReference for v in variables if kind(v) == sort]
     if not references:
         return None
-    count = len(references)
-    asked, values = (c_uint * count)(*references), (_BUFFERS[sort] * count)()
+    slave, reader = wheel.slave, wheel.slave.reader(sort, references)
 
     def read():
-        slave = wheel.slave
-        wheel._call(getattr(slave, "fmi2Get" + sort), slave.component, asked, count, values)
-        return np.array(values)
+        # That of a wheel which has been closed says so.
+        return wheel._call(reader if wheel.slave is slave else wheel.slave.reader)
 
     read.references = references
     return read

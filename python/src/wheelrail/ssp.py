@@ -240,21 +240,25 @@ def archive(path, entries):
             file.writestr(info, content)
 
 
-def pack_coach(program, library, out, licences=()):
-    """Writes coach.fmu; `program` prints its model description."""
+PLATFORMS = {"2": "linux64", "3": "x86_64-linux"}  # where a library for Linux lies, by the version of FMI
+
+
+def pack_coach(program, library, out, licences=(), fmi="2"):
+    """Writes coach.fmu of FMI 2.0 or 3.0; `program` prints its model description."""
     for path in map(Path, (program, library)):
         if not path.is_file():
             raise FileNotFoundError(f"{path} does not exist: `make ssp` builds it; --coach names its directory")
-    described = subprocess.run([str(program)], check=True, capture_output=True).stdout
+    described = subprocess.run([str(program), fmi], check=True, capture_output=True).stdout
     texts = {f"documentation/licenses/{path.name}": path.read_bytes() for path in map(Path, licences)}
     # Some masters name a directory of resources that does not exist unless something is in it.
     texts["resources/README.txt"] = b"The coach has no resources.\n"
-    archive(out, {"modelDescription.xml": described, "binaries/linux64/coach.so": Path(library).read_bytes()} | texts)
+    archive(out, {"modelDescription.xml": described, f"binaries/{PLATFORMS[fmi]}/coach.so": Path(library).read_bytes()} | texts)
 
 
 def write(scenario, fmu, coach, paths, out, stop_time=10.0, step=STEP):
     """Writes `coach_and_wheels.ssp` and `osp/` to a directory and returns their paths. `fmu` and `coach` are the opened FMUs,
-    `paths` those of their files: of the wheel, of the coach."""
+    `paths` those of their files: of the wheel, of the coach. With FMUs of FMI 3.0, which libcosim does not run, there is no
+    `osp/`, and the second path is None."""
     values = {"coach": typed(coach.variables, coach_values(scenario))}
     wheelset = typed(fmu.variables, wheelset_values(scenario, fmu))
     values |= {name: wheelset for name, _ in components()[1:]}
@@ -267,6 +271,8 @@ def write(scenario, fmu, coach, paths, out, stop_time=10.0, step=STEP):
     entries |= {f"resources/{name}.ssv": ssv(name.split("/")[-1], of) for name, of in sets.items()}
     package, system = Path(out) / "coach_and_wheels.ssp", Path(out) / "osp"
     archive(package, entries)
+    if fmu.places:
+        return package, None
     for name, content in files.items():
         write_file(system / name, content)
     structure = system / "OspSystemStructure.xml"

@@ -2,12 +2,14 @@
 
 use super::environment::Host;
 use super::states::States;
-use super::types::fmi2Component;
 use crate::instance::{Instance, Slave};
 use std::any::{Any, TypeId};
-use std::ffi::CString;
+use std::ffi::{CString, c_void};
 use std::rc::Rc;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Address of a component, or NULL: what a master holds.
+pub type Address = *mut c_void;
 
 /// An instance with everything that its master may hold of it.
 pub struct Component<S: Slave> {
@@ -35,19 +37,19 @@ impl<S: Slave> Component<S> {
     }
 
     /// Address by which the master knows the component from now on.
-    pub fn hand_out(self) -> fmi2Component {
+    pub fn hand_out(self) -> Address {
         let component = Box::into_raw(Box::new(self));
         living().push((component.addr(), TypeId::of::<S>()));
         component.cast()
     }
 
     /// The component behind a pointer, if it is one that lives.
-    pub fn find(c: fmi2Component) -> Option<*mut Self> {
+    pub fn find(c: Address) -> Option<*mut Self> {
         living().contains(&(c.addr(), TypeId::of::<S>())).then(|| c.cast())
     }
 
     /// The component behind a pointer, if it is one that lives, for the last time.
-    pub fn take_back(c: fmi2Component) -> Option<*mut Self> {
+    pub fn take_back(c: Address) -> Option<*mut Self> {
         let mut living = living();
         let place = living.iter().position(|known| *known == (c.addr(), TypeId::of::<S>()))?;
         living.swap_remove(place);

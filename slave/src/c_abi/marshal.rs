@@ -1,8 +1,7 @@
 //! Values on their way through the C interface: pointers are checked, C integers matched, never trusted.
 
-use super::types::{CO_SIMULATION, Question, fmi2Boolean, fmi2String};
 use crate::log::{CallError, Outcome};
-use std::ffi::{CStr, CString, c_int};
+use std::ffi::{CStr, CString, c_char};
 
 /// The array a master passed; an empty one may be NULL.
 ///
@@ -36,7 +35,7 @@ pub unsafe fn store<T>(first: *mut T, values: Vec<T>, name: &str) -> Outcome {
 ///
 /// # Safety
 /// `string` is NULL or ends with NUL.
-pub unsafe fn text(string: fmi2String, name: &str) -> Outcome<String> {
+pub unsafe fn text(string: *const c_char, name: &str) -> Outcome<String> {
     if string.is_null() {
         return Err(CallError::error(format!("{name} is NULL")));
     }
@@ -51,29 +50,15 @@ pub fn c_string(text: &str) -> CString {
     CString::new(text.replace('\0', " ")).unwrap_or_default()
 }
 
-/// The value of a C boolean. Only 0 and 1 are values of `fmi2Boolean`: another number is a mistake of the master, for
-/// example an integer variable taken for a boolean one.
-pub fn boolean(value: fmi2Boolean, name: &str) -> Outcome<bool> {
+/// The value of a C boolean of a version of the standard. Only 0 and 1 are values of it: another number is a mistake of the
+/// master, for example an integer variable taken for a boolean one.
+pub fn flag(value: i32, version: u8, name: &str) -> Outcome<bool> {
     match value {
         0 => Ok(false),
         1 => Ok(true),
-        _ => Err(CallError::error(format!("{name} = {value} is no fmi2Boolean: pass 0 (fmi2False) or 1 (fmi2True)"))),
+        _ => {
+            let right = format!("pass 0 (fmi{version}False) or 1 (fmi{version}True)");
+            Err(CallError::error(format!("{name} = {value} is no fmi{version}Boolean: {right}")))
+        }
     }
-}
-
-/// Refuses every type of simulation but co-simulation.
-pub fn co_simulation(kind: c_int) -> Outcome {
-    if kind == CO_SIMULATION {
-        return Ok(());
-    }
-    let only = format!("{CO_SIMULATION} (fmi2CoSimulation), the only type of this FMU");
-    Err(CallError::error(format!("fmuType = {kind} is outside its range: {only}")))
-}
-
-/// The question about the last step that a master asks by a number.
-pub fn question(kind: c_int) -> Outcome<Question> {
-    Question::ALL.into_iter().find(|known| *known as c_int == kind).ok_or_else(|| {
-        let known = Question::ALL.map(|known| format!("{} ({})", known as c_int, known.name()));
-        CallError::error(format!("fmi2StatusKind = {kind} is outside its range: {}", known.join(", ")))
-    })
 }

@@ -1,12 +1,13 @@
-//! The C interface: the 34 functions of FMI 2.0 co-simulation for any slave with [`ScalarAccess`](crate::ScalarAccess),
-//! and the only `unsafe` code.
+//! The C interface for any slave: FMI 2.0 with [`ScalarAccess`](crate::ScalarAccess) ([`v2`]), FMI 3.0 with
+//! [`ArrayAccess`](crate::ArrayAccess) ([`v3`]), and the only `unsafe` code.
 //!
 //! Each function checks its pointers, copies what it is given, calls the [`Instance`](crate::Instance) behind a
-//! barrier that turns panics into `fmi2Fatal`, and reports errors in one place. Enumerations and booleans arrive as C
-//! integers, whatever their value. A component that `fmi2Instantiate` has not returned, or `fmi2FreeInstance` has
-//! freed, is refused and never followed. The floating-point environment of the master is put aside meanwhile, and the
+//! barrier that turns panics into `fmi2Fatal` or `fmi3Fatal`, and reports errors in one place. Enumerations and booleans
+//! arrive as C integers, whatever their value. A component that no function here has returned, or that has been freed,
+//! is refused and never followed. The floating-point environment of the master is put aside meanwhile, and the
 //! first computations of an instance, which need much stack, run beside its thread.
-//! [`export_fmi2!`](crate::export_fmi2) gives the functions their symbols for one type of slave.
+//! [`export_fmi2!`](crate::export_fmi2) and [`export_fmi3!`](crate::export_fmi3) give the functions their symbols for one
+//! type of slave; a library may have both.
 //!
 //! # Safety
 //!
@@ -15,30 +16,23 @@
 
 #![allow(unsafe_code, non_snake_case, clippy::missing_safety_doc)]
 
+mod birth;
 mod component;
 mod environment;
-mod export;
-mod functions;
-mod instantiate;
-mod logger;
 mod marshal;
+mod saved;
 mod states;
 mod thread;
-pub mod types;
-mod values;
-
-pub use functions::*;
-pub use instantiate::{fmi2FreeInstance, fmi2Instantiate};
-pub use values::*;
+pub mod v2;
+pub mod v3;
 
 use crate::instance::Slave;
 use crate::log::{CallError, Outcome, Status};
-use component::{Component, panic_text};
+use component::{Address, Component, panic_text};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use types::{fmi2Component, fmi2Status};
 
-/// Runs the body on the component: errors are logged and become a status, panics become `fmi2Fatal`.
-unsafe fn call<S: Slave>(c: fmi2Component, name: &str, body: impl FnOnce(&mut Component<S>) -> Outcome) -> fmi2Status {
+/// Runs the body on the component: errors are logged and become a status, panics a fatal one.
+unsafe fn call<S: Slave>(c: Address, name: &str, body: impl FnOnce(&mut Component<S>) -> Outcome) -> Status {
     let Some(component) = Component::find(c) else {
         return Status::Error;
     };

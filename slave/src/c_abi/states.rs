@@ -1,4 +1,4 @@
-//! States that a master holds as `fmi2FMUstate`.
+//! States that a master holds by handles, `fmi2FMUstate` or `fmi3FMUState`.
 //!
 //! A handle is the address of a word of memory that belongs to the instance, and the key under which the state is
 //! found. The library never follows a handle. Some masters, however, pass the handle itself where the address of the
@@ -6,11 +6,14 @@
 //! handle. It is none, so the call is refused. Words of freed states are kept for new ones, so that this holds for
 //! stale handles, too.
 
-use super::types::fmi2FMUstate;
 use crate::log::{CallError, Outcome};
 use crate::snapshot::Snapshot;
 use std::collections::BTreeMap;
+use std::ffi::c_void;
 use std::ptr;
+
+/// Handle of a saved state.
+pub type Handle = *mut c_void;
 
 /// Content of the word behind every handle: odd, so never the address of a word.
 const NO_HANDLE: usize = 1;
@@ -31,7 +34,7 @@ impl<T> Default for States<T> {
 
 impl<T> States<T> {
     /// The state behind a handle; refuses what is no handle of this instance.
-    pub fn find(&self, handle: fmi2FMUstate) -> Outcome<&Snapshot<T>> {
+    pub fn find(&self, handle: Handle) -> Outcome<&Snapshot<T>> {
         match self.held.get(&handle.addr()) {
             Some((_, snapshot)) => Ok(snapshot),
             None => Err(unknown(handle)),
@@ -39,7 +42,7 @@ impl<T> States<T> {
     }
 
     /// Keeps a snapshot under `handle`, or under a new handle if that is NULL; returns the handle.
-    pub fn keep(&mut self, handle: fmi2FMUstate, snapshot: Snapshot<T>) -> Outcome<fmi2FMUstate> {
+    pub fn keep(&mut self, handle: Handle, snapshot: Snapshot<T>) -> Outcome<Handle> {
         if !handle.is_null() {
             let (_, held) = self.held.get_mut(&handle.addr()).ok_or_else(|| unknown(handle))?;
             *held = snapshot;
@@ -52,14 +55,14 @@ impl<T> States<T> {
     }
 
     /// Forgets the state behind a handle.
-    pub fn free(&mut self, handle: fmi2FMUstate) -> Outcome {
+    pub fn free(&mut self, handle: Handle) -> Outcome {
         let (word, _) = self.held.remove(&handle.addr()).ok_or_else(|| unknown(handle))?;
         self.spare.push(word);
         Ok(())
     }
 }
 
-fn unknown(handle: fmi2FMUstate) -> CallError {
+fn unknown(handle: Handle) -> CallError {
     CallError::error(match handle.addr() {
         NO_HANDLE => "FMUstate is a state where the address of a variable that holds a state is asked for",
         _ => "FMUstate is not a state of this instance, or has been freed",

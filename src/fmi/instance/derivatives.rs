@@ -1,7 +1,8 @@
 //! Derivatives: of inputs in time, of outputs by inputs and in time.
 
+use crate::fmi::settings::Settings;
 use crate::fmi::variable::{Access, Causality, Variable};
-use crate::simulation::{Difference, Drive, Simulation};
+use crate::simulation::{Difference, Direction, Simulation};
 use wheelrail_slave::{CallError, Outcome};
 
 /// Highest order of input derivatives that masters may set, so that inputs are ramps within a step.
@@ -18,9 +19,10 @@ fn first_order(variable: &Variable, order: i32, highest: i32) -> Outcome {
     Err(CallError::error(format!("derivative of {} of order {order}: only order {highest} is possible", variable.name)))
 }
 
-/// Time derivatives of real inputs, for the next step only; all or none. Each comes with its order.
-pub(super) fn set_rates(rates: &mut Drive, derivatives: &[(&Variable, i32, f64)]) -> Outcome {
-    let mut new = *rates;
+/// Time derivatives of real inputs, for the next step only; all or none. Each comes with its order. Refused where an input of
+/// its own gives the derivative.
+pub(super) fn set_rates(settings: &mut Settings, derivatives: &[(&Variable, i32, f64)]) -> Outcome {
+    let mut new = settings.rates;
     for (variable, order, value) in derivatives {
         let name = &variable.name;
         let Access::RealInput(field) = variable.access else {
@@ -30,24 +32,31 @@ pub(super) fn set_rates(rates: &mut Drive, derivatives: &[(&Variable, i32, f64)]
         if !value.is_finite() {
             return Err(CallError::error(format!("der({name}) = {value:?} is outside its range: finite numbers")));
         }
+        if let Some(ramp) = settings.ramp_of(variable) {
+            return Err(CallError::error(format!(
+                "der({name}) is already given by {ramp}: set that to 0, or leave this"
+            )));
+        }
         *field(&mut new) = *value;
     }
-    *rates = new;
+    settings.rates = new;
     Ok(())
 }
 
 /// Direction of the known inputs, of which each has its component.
-pub(super) fn direction(known: &[(&Variable, f64)]) -> Outcome<Drive> {
-    let mut direction = Drive::default();
+pub(super) fn direction(known: &[(&Variable, f64)]) -> Outcome<Direction> {
+    let mut direction = Direction::default();
     for (variable, seed) in known {
         let name = &variable.name;
-        let Access::RealInput(field) = variable.access else {
-            return Err(CallError::error(format!("{name} is not an input: derivatives are by real inputs")));
+        let component = match variable.access {
+            Access::RealInput(field) => field(&mut direction.drive),
+            Access::Ramp(field) => field(&mut direction.rate),
+            _ => return Err(CallError::error(format!("{name} is not an input: derivatives are by real inputs"))),
         };
         if !seed.is_finite() {
             return Err(CallError::error(format!("seed of {name} = {seed:?} is outside its range: finite numbers")));
         }
-        *field(&mut direction) += seed;
+        *component += seed;
     }
     Ok(direction)
 }

@@ -1,7 +1,7 @@
 //! The wheel as a slave: settings of the master, and the simulation behind them.
 //!
-//! Functions here speak of rows of the table; which scalar variables of FMI 2.0 these are is a matter of
-//! [`v2`](super::v2). Every function that fails leaves the wheel as it was.
+//! Functions here speak of rows of the table; which variables of a version of FMI these are is a matter of
+//! [`v2`](super::v2) and [`v3`](super::v3). Every function that fails leaves the wheel as it was.
 
 pub mod derivatives;
 mod experiment;
@@ -16,7 +16,7 @@ use super::settings::{SetValues, Settings};
 use super::snapshot::WheelState;
 use super::variable::{Causality, Value, Variable};
 use crate::config::Config;
-use crate::simulation::{Inputs, LONGEST_STEP, Model, Simulation, advice};
+use crate::simulation::{Inputs, LONGEST_STEP, Model, Simulation, StepError, advice};
 use notices::Notices;
 use owners::Claim;
 use std::borrow::Cow;
@@ -105,30 +105,11 @@ impl Slave for WheelSlave {
     }
 
     fn step(&mut self, start: f64, h: f64, life: &Life) -> Outcome {
-        let inputs = self.inputs(life);
-        let end = inputs.at(h);
-        end.validate().map_err(|error| CallError::error(format!("at the end of the step {error}")))?;
-        if let Some(simulation) = &self.simulation {
-            self.notices.of_inputs(&inputs, simulation, &self.settings, &self.config, life);
-        }
-        match self.compute(life, |simulation| simulation.advance(&inputs, h))? {
-            Ok(()) => {
-                self.settings.hold(end);
-                (self.failure, self.hopeless) = (None, false);
-                self.warn_of_limits(start + h, life);
-                if let Some(simulation) = &self.simulation {
-                    self.notices.of_reversal(&inputs, simulation.outputs(), &self.config, start + h, life.log());
-                }
-                Ok(())
-            }
-            Err(error) => {
-                self.hopeless =
-                    self.failure.is_some_and(|(t, length, with)| t == start && h >= length && with == inputs);
-                self.failure = Some((start, h, inputs));
-                let why = advice::failed_step(&error, &self.config);
-                Err(CallError::discard(format!("step from {start:?} s over {h:?} s failed: {why}")))
-            }
-        }
+        self.take_step(start, h, life, |simulation, inputs| simulation.advance(inputs, h).map(|()| h)).map(drop)
+    }
+
+    fn step_to_event(&mut self, start: f64, h: f64, life: &Life) -> Outcome<f64> {
+        self.take_step(start, h, life, |simulation, inputs| simulation.advance_to_event(inputs, h))
     }
 
     fn is_hopeless(&self) -> bool {
@@ -227,6 +208,40 @@ impl WheelSlave {
         Ok(())
     }
 
+    /// Simulates over `h` \[s] from `start`, or less, as `advance` does; returns how long.
+    fn take_step(
+        &mut self,
+        start: f64,
+        h: f64,
+        life: &Life,
+        advance: impl FnOnce(&mut Simulation, &Inputs) -> Result<f64, StepError> + Send,
+    ) -> Outcome<f64> {
+        let inputs = self.inputs(life);
+        inputs.at(h).validate().map_err(|error| CallError::error(format!("at the end of the step {error}")))?;
+        if let Some(simulation) = &self.simulation {
+            self.notices.of_inputs(&inputs, simulation, &self.settings, &self.config, life);
+        }
+        match self.compute(life, |simulation| advance(simulation, &inputs))? {
+            Ok(reached) => {
+                self.settings.hold(inputs.rate, inputs.at(reached));
+                (self.failure, self.hopeless) = (None, false);
+                let time = start + reached;
+                self.warn_of_limits(time, life);
+                if let Some(simulation) = &self.simulation {
+                    self.notices.of_reversal(&inputs, simulation.outputs(), &self.config, time, life.log());
+                }
+                Ok(reached)
+            }
+            Err(error) => {
+                self.hopeless =
+                    self.failure.is_some_and(|(t, length, with)| t == start && h >= length && with == inputs);
+                self.failure = Some((start, h, inputs));
+                let why = advice::failed_step(&error, &self.config);
+                Err(CallError::discard(format!("step from {start:?} s over {h:?} s failed: {why}")))
+            }
+        }
+    }
+
     /// The inputs that act now.
     fn inputs(&self, life: &Life) -> Inputs {
         self.settings.inputs(&self.config, life.is_early())
@@ -239,7 +254,7 @@ impl WheelSlave {
 
     /// Sets time derivatives of inputs during the next step, each with its order; all or none.
     pub fn set_rates(&mut self, values: &[(&Variable, i32, f64)]) -> Outcome {
-        derivatives::set_rates(&mut self.settings.rates, values)
+        derivatives::set_rates(&mut self.settings, values)
     }
 
     fn warn_of_limits(&mut self, time: f64, life: &Life) {

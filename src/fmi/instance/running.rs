@@ -80,7 +80,7 @@ impl WheelSlave {
         let direction = derivatives::direction(known)?;
         derivatives::check_outputs(unknown)?;
         let failed = |error| CallError::error(format!("directional derivative: {error}"));
-        let difference = self.compute(life, |simulation| simulation.difference(&direction))?.map_err(failed)?;
+        let difference = self.compute(life, |simulation| simulation.difference(direction))?.map_err(failed)?;
         derivatives::quotients(&difference, unknown)
     }
 

@@ -3,9 +3,8 @@
 
 use super::description;
 use super::variables::find;
-use crate::config::retired::{self, Retired};
 use crate::fmi::instance::WheelSlave;
-use crate::fmi::table;
+use crate::fmi::table::{self, no_such_variable};
 use crate::fmi::variable::{Kind, Value, Variable};
 use wheelrail_slave::{CallError, Life, Outcome, Reference, Scalar, ScalarAccess, Type};
 
@@ -17,39 +16,6 @@ pub fn type_of(kind: Kind) -> Type {
         Kind::Boolean => Type::Boolean,
         Kind::String => Type::String,
     }
-}
-
-impl From<Scalar> for Value {
-    fn from(scalar: Scalar) -> Self {
-        match scalar {
-            Scalar::Real(value) => Value::Real(value),
-            Scalar::Integer(value) => Value::Integer(value),
-            Scalar::Boolean(value) => Value::Boolean(value),
-            Scalar::String(value) => Value::String(value),
-        }
-    }
-}
-
-/// Arrays are no scalars: FMI 2.0 knows their elements only.
-impl TryFrom<Value> for Scalar {
-    type Error = ();
-
-    fn try_from(value: Value) -> Result<Self, ()> {
-        match value {
-            Value::Real(value) => Ok(Scalar::Real(value)),
-            Value::Integer(value) => Ok(Scalar::Integer(value)),
-            Value::Boolean(value) => Ok(Scalar::Boolean(value)),
-            Value::String(value) => Ok(Scalar::String(value)),
-            Value::Reals(_) => Err(()),
-        }
-    }
-}
-
-/// The refusal of a value reference that no variable has: that of a retired parameter is refused by its name.
-fn no_such_variable(reference: Reference) -> String {
-    let unknown = || format!("value reference {reference} is unknown");
-    let named = |retired: &Retired| format!("value reference {reference}: {retired}");
-    retired::numbered(reference).map_or_else(unknown, named)
 }
 
 /// Variables of one type, refusing unknown references and other types.

@@ -2,13 +2,13 @@
 
 use crate::config::Config;
 use crate::fmi::table::{preset, table};
-use crate::fmi::variable::{Access, Reference, Variable};
+use crate::fmi::variable::{Reference, Variable};
 use crate::simulation::{Drive, Inputs, Outputs};
 use std::array::from_fn;
 use std::sync::OnceLock;
 
 /// Number of scalar variables: the preset, parameters, inputs and outputs.
-const COUNT: usize = 1 + Config::COUNT + Inputs::CONTROLS + Drive::ROWS.len() + output_count();
+const COUNT: usize = 1 + Config::COUNT + Inputs::CONTROLS + Drive::ROWS.len() + Drive::RAMPS + output_count();
 
 /// Number of scalar outputs.
 const fn output_count() -> usize {
@@ -26,7 +26,7 @@ pub fn variables() -> &'static [Variable] {
     // Arrays here and below: vectors would be lost when the library is unloaded, for statics are never dropped.
     static SCALARS: OnceLock<[Variable; COUNT]> = OnceLock::new();
     SCALARS.get_or_init(|| {
-        let mut scalars = table().iter().flat_map(scalars);
+        let mut scalars = table().iter().flat_map(Variable::elements);
         from_fn(|_| scalars.next().unwrap_or_else(preset))
     })
 }
@@ -41,21 +41,4 @@ pub fn find(reference: Reference) -> Option<&'static Variable> {
     });
     let position = order.binary_search_by_key(&reference, |entry| entry.0).ok()?;
     Some(&variables()[order[position].1])
-}
-
-/// A scalar itself; the elements of an array, whose references follow that of the array.
-fn scalars(row: &Variable) -> Vec<Variable> {
-    let Access::Output(output) = row.access else { return vec![*row] };
-    if row.dimension.is_none() {
-        return vec![*row];
-    }
-    let element = |(point, &(name, description))| Variable {
-        reference: row.reference + 1 + point as Reference,
-        name,
-        dimension: None,
-        element: Some(point),
-        description,
-        ..*row
-    };
-    output.points.iter().enumerate().map(element).collect()
 }

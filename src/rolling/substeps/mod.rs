@@ -19,6 +19,7 @@
 //! Errors no longer halve a piece where `solver.max_internal_steps` would be exceeded; the other reasons do.
 
 mod control;
+mod events;
 mod prediction;
 
 use super::control::{Drive, Inputs};
@@ -32,6 +33,8 @@ use crate::config::Tuning;
 use crate::heat::{HeatError, HeatFlows};
 use control::{Control, Verdict};
 use prediction::{Found, controlled};
+
+pub use events::advance_to_event;
 
 /// Longest communication step \[s].
 pub const LONGEST_STEP: f64 = 3600.0;
@@ -88,6 +91,28 @@ pub fn advance(
     workspace: &mut Workspace,
     out: &mut State,
 ) -> Result<(), StepError> {
+    advance_until(model, tuning, state, &Span { inputs, h, stop: None }, workspace, out).map(drop)
+}
+
+/// A communication step and what ends it early.
+struct Span<'a> {
+    inputs: &'a Inputs,
+    h: f64,
+    /// Condition on the state after an internal step.
+    stop: Option<&'a dyn Fn(&State) -> bool>,
+}
+
+/// Computes the state `out` after a communication step and returns the time that it has taken \[s]: less than its length where
+/// the condition holds before its end; then, and on error, `out` is meaningless.
+fn advance_until(
+    model: &RollingModel,
+    tuning: &Tuning,
+    state: &State,
+    span: &Span,
+    workspace: &mut Workspace,
+    out: &mut State,
+) -> Result<f64, StepError> {
+    let Span { inputs, h, stop } = *span;
     inputs.validate()?;
     model.wheel.sideways.check(inputs)?;
     if !(h > 0.0 && h <= LONGEST_STEP) {
@@ -101,19 +126,20 @@ pub fn advance(
     if h < SHORTEST_STEP {
         out.clone_from(state);
         out.clock.pending = h;
-        return Ok(());
+        return Ok(span.h);
     }
     let [mut now, mut next] = std::mem::take(&mut workspace.states);
     let elevation = state.rise.course([state.elevation, end.elevation], end.elevation_rate, h);
-    let ramp = Ramp { inputs, start, end, elevation, h };
+    let ramp = Ramp { inputs, start, end, elevation, h, stop };
     let result = march(model, tuning, state, &ramp, workspace, &mut now, &mut next);
-    if result.is_ok() {
+    let share = result.as_ref().copied().unwrap_or(0.0);
+    if share == 1.0 {
         std::mem::swap(out, &mut now);
         out.clock.time = state.clock.time + h;
         out.rise = ramp.elevation.rise();
     }
     workspace.states = [now, next];
-    result
+    result.map(|_| if share == 1.0 { span.h } else { h * share })
 }
 
 /// Inputs over a communication step, as the internal steps take them.
@@ -124,6 +150,8 @@ struct Ramp<'a> {
     elevation: HeightCourse,
     /// Its length [s].
     h: f64,
+    /// Condition that ends it early.
+    stop: Option<&'a dyn Fn(&State) -> bool>,
 }
 
 impl Ramp<'_> {
@@ -177,8 +205,10 @@ impl Sums {
         self.pressing.add(next, dt);
     }
 
-    /// Gives a state what its communication step has summed up.
-    fn give(self, state: &mut State) {
+    /// Gives a state what its communication step of `h` seconds, which began with `before`, has summed up.
+    fn give(self, state: &mut State, before: &State, h: f64) {
+        state.friction_power = (state.audit.friction - before.audit.friction) / h;
+        state.hub.brake.power = (state.audit.brake - before.audit.brake) / h;
         state.pressing = self.pressing;
         for (line, flows) in state.lines.iter_mut().zip(self.flows) {
             line.thermal.iter_mut().for_each(|thermal| thermal.flows = flows);
@@ -197,7 +227,8 @@ fn shorter_may_succeed(error: &StepError) -> bool {
     )
 }
 
-/// Takes all internal steps; `now` is the state after the last one, `next` a buffer.
+/// Takes the internal steps and returns the share of the communication step that they make: all of it, unless a condition ends
+/// it early. `now` is the state after the last one, `next` a buffer.
 fn march(
     model: &RollingModel,
     tuning: &Tuning,
@@ -206,7 +237,7 @@ fn march(
     workspace: &mut Workspace,
     now: &mut State,
     next: &mut State,
-) -> Result<(), StepError> {
+) -> Result<f64, StepError> {
     let fewest = fewest_pieces(model, tuning, state, ramp)?;
     let mut place = Place { done: 0, pieces: fewest };
     let mut control = Control::new(tuning, state.clock.control);
@@ -243,6 +274,9 @@ fn march(
         found.check(model)?;
         control.memory.before = controlled(model, from);
         (place.done, failures) = (place.done + 1, 0);
+        if place.done < place.pieces && ramp.stop.is_some_and(|stop| stop(next)) {
+            return Ok(place.done as f64 / place.pieces as f64);
+        }
         if control.grows(&found, dt) {
             place.join(fewest);
         }
@@ -251,8 +285,6 @@ fn march(
         std::mem::swap(now, next);
     }
     now.clock.control = control.memory;
-    now.friction_power = (now.audit.friction - state.audit.friction) / ramp.h;
-    now.hub.brake.power = (now.audit.brake - state.audit.brake) / ramp.h;
-    sums.give(now);
-    Ok(())
+    sums.give(now, state, ramp.h);
+    Ok(1.0)
 }

@@ -1,15 +1,14 @@
 //! The functions of the standard, each for any type of slave.
 
-use super::call;
-use super::component::Component;
-use super::marshal::{boolean, question, slice, store, text};
+use super::marshal::{boolean, question};
 use super::types::*;
+use crate::c_abi::call;
+use crate::c_abi::component::Component;
+use crate::c_abi::marshal::{slice, store, text};
 use crate::instance::ScalarAccess;
 use crate::lifecycle::Call;
 use crate::log::{CallError, Outcome};
-use crate::snapshot::Snapshot;
 use std::ffi::{c_char, c_int};
-use std::ptr;
 
 /// Sizes of the types of the interface.
 pub fn fmi2GetTypesPlatform() -> *const c_char {
@@ -21,29 +20,7 @@ pub fn fmi2GetVersion() -> *const c_char {
     c"2.0".as_ptr()
 }
 
-/// The handle that stands at the place a master passed.
-unsafe fn handle_at(place: *const fmi2FMUstate) -> Outcome<fmi2FMUstate> {
-    if place.is_null() {
-        return Err(CallError::error("FMUstate is NULL"));
-    }
-    // SAFETY: see the module: the address of a handle; or, by mistake, a handle of ours, which is readable as well.
-    Ok(unsafe { place.read() })
-}
-
 impl<S: ScalarAccess> Component<S> {
-    /// Keeps a snapshot under the handle at `place`, a new one unless the place already holds one.
-    unsafe fn keep(&mut self, place: *mut fmi2FMUstate, snapshot: Snapshot<S::State>) -> Outcome {
-        // SAFETY: see the module.
-        let handle = self.states.keep(unsafe { handle_at(place) }?, snapshot)?;
-        // SAFETY: see the module; nothing is written where `place` holds something else than a handle.
-        unsafe { store(place, vec![handle], "FMUstate") }
-    }
-
-    fn state_bytes(&self, handle: fmi2FMUstate) -> Outcome<Vec<u8>> {
-        self.instance.life().allow(Call::FmuState)?;
-        S::to_bytes(self.states.find(handle)?).map_err(CallError::error)
-    }
-
     /// Refuses questions about the last step other than the one that a function answers.
     fn answers(&self, kind: c_int, answered: Option<Question>) -> Outcome {
         self.instance.life().allow(Call::GetStatus)?;
@@ -118,38 +95,19 @@ pub unsafe fn fmi2Reset<S: ScalarAccess>(c: fmi2Component) -> fmi2Status {
 /// Saves the state, in the place of an earlier one if the variable holds one.
 pub unsafe fn fmi2GetFMUstate<S: ScalarAccess>(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
     // SAFETY: see the module.
-    unsafe {
-        call::<S>(c, "fmi2GetFMUstate", |component| {
-            let snapshot = component.instance.snapshot()?;
-            component.keep(FMUstate, snapshot)
-        })
-    }
+    unsafe { call::<S>(c, "fmi2GetFMUstate", |component| component.save_state(FMUstate)) }
 }
 
 /// Continues from a saved state.
 pub unsafe fn fmi2SetFMUstate<S: ScalarAccess>(c: fmi2Component, FMUstate: fmi2FMUstate) -> fmi2Status {
     // SAFETY: see the module.
-    unsafe {
-        call::<S>(c, "fmi2SetFMUstate", |component| {
-            let Component { instance, states, .. } = component;
-            instance.restore(states.find(FMUstate)?)
-        })
-    }
+    unsafe { call::<S>(c, "fmi2SetFMUstate", |component| component.restore_state(FMUstate)) }
 }
 
 /// Forgets a saved state; ignores calls without a state, as the standard asks.
 pub unsafe fn fmi2FreeFMUstate<S: ScalarAccess>(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
     // SAFETY: see the module.
-    unsafe {
-        call::<S>(c, "fmi2FreeFMUstate", |component| {
-            component.instance.life().allow(Call::FmuState)?;
-            if FMUstate.is_null() || handle_at(FMUstate)?.is_null() {
-                return Ok(());
-            }
-            component.states.free(handle_at(FMUstate)?)?;
-            store(FMUstate, vec![ptr::null_mut()], "FMUstate")
-        })
-    }
+    unsafe { call::<S>(c, "fmi2FreeFMUstate", |component| component.free_state(FMUstate)) }
 }
 
 /// Number of bytes of a serialized state.
@@ -159,11 +117,7 @@ pub unsafe fn fmi2SerializedFMUstateSize<S: ScalarAccess>(
     size: *mut usize,
 ) -> fmi2Status {
     // SAFETY: see the module.
-    unsafe {
-        call::<S>(c, "fmi2SerializedFMUstateSize", |component| {
-            store(size, vec![component.state_bytes(FMUstate)?.len()], "size")
-        })
-    }
+    unsafe { call::<S>(c, "fmi2SerializedFMUstateSize", |component| component.state_size(FMUstate, size)) }
 }
 
 /// Writes a saved state as bytes.
@@ -176,12 +130,7 @@ pub unsafe fn fmi2SerializeFMUstate<S: ScalarAccess>(
     // SAFETY: see the module.
     unsafe {
         call::<S>(c, "fmi2SerializeFMUstate", |component| {
-            let bytes = component.state_bytes(FMUstate)?;
-            if size < bytes.len() {
-                let needed = bytes.len();
-                return Err(CallError::error(format!("size = {size} is outside its range: at least {needed}")));
-            }
-            store(serializedState, bytes.into_iter().map(|byte| byte as fmi2Byte).collect(), "serializedState")
+            component.serialize_state(FMUstate, serializedState.cast(), size)
         })
     }
 }
@@ -196,10 +145,7 @@ pub unsafe fn fmi2DeSerializeFMUstate<S: ScalarAccess>(
     // SAFETY: see the module.
     unsafe {
         call::<S>(c, "fmi2DeSerializeFMUstate", |component| {
-            component.instance.life().allow(Call::FmuState)?;
-            let bytes = slice(serializedState.cast::<u8>(), size, "serializedState")?;
-            let snapshot = S::from_bytes(bytes).map_err(CallError::error)?;
-            component.keep(FMUstate, snapshot)
+            component.deserialize_state(serializedState.cast(), size, FMUstate)
         })
     }
 }

@@ -5,15 +5,17 @@
 
 #![allow(non_camel_case_types)]
 
+use crate::c_abi::component::Address;
+use crate::c_abi::states::Handle;
 use crate::log::Status;
 use std::ffi::{c_char, c_int, c_uint, c_void};
 
 /// Address of a component.
-pub type fmi2Component = *mut c_void;
+pub type fmi2Component = Address;
 /// Address that belongs to the master and is handed back to its functions.
 pub type fmi2ComponentEnvironment = *mut c_void;
 /// Handle of a saved state.
-pub type fmi2FMUstate = *mut c_void;
+pub type fmi2FMUstate = Handle;
 /// Value reference.
 pub type fmi2ValueReference = c_uint;
 /// Real number.

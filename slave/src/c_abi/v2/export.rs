@@ -12,23 +12,23 @@ macro_rules! export_fmi2 {
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name($($argument: $kind),*) -> $result {
             // SAFETY: that of this function.
-            unsafe { $crate::c_abi::$name::<$Slave>($($argument),*) }
+            unsafe { $crate::c_abi::v2::$name::<$Slave>($($argument),*) }
         }
     )*};
     ($Slave:ty) => {
-        use $crate::c_abi::types::*;
+        use $crate::c_abi::v2::types::*;
         use std::ffi::{c_char, c_int};
 
         /// Sizes of the types of the interface.
         #[unsafe(no_mangle)]
         pub extern "C" fn fmi2GetTypesPlatform() -> *const c_char {
-            $crate::c_abi::fmi2GetTypesPlatform()
+            $crate::c_abi::v2::fmi2GetTypesPlatform()
         }
 
         /// Version of the standard.
         #[unsafe(no_mangle)]
         pub extern "C" fn fmi2GetVersion() -> *const c_char {
-            $crate::c_abi::fmi2GetVersion()
+            $crate::c_abi::v2::fmi2GetVersion()
         }
 
         /// Frees an instance.
@@ -36,7 +36,7 @@ macro_rules! export_fmi2 {
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
             // SAFETY: that of this function.
-            unsafe { $crate::c_abi::fmi2FreeInstance::<$Slave>(c) }
+            unsafe { $crate::c_abi::v2::fmi2FreeInstance::<$Slave>(c) }
         }
 
         $crate::export_fmi2! { @with $Slave:

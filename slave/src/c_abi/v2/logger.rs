@@ -1,8 +1,8 @@
 //! Messages to the logger of the master.
 
-use super::environment::Host;
-use super::marshal::c_string;
 use super::types::CallbackFunctions;
+use crate::c_abi::environment::Host;
+use crate::c_abi::marshal::c_string;
 use crate::log::Sink;
 use std::rc::Rc;
 

@@ -1,9 +1,10 @@
 //! Reading and setting of values.
 
-use super::call;
-use super::component::Component;
-use super::marshal::{boolean, c_string, slice, store, text};
+use super::marshal::boolean;
 use super::types::*;
+use crate::c_abi::call;
+use crate::c_abi::component::Component;
+use crate::c_abi::marshal::{c_string, slice, store, text};
 use crate::instance::ScalarAccess;
 use crate::log::Outcome;
 use crate::value::{Scalar, Type};

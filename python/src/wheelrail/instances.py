@@ -1,0 +1,219 @@
+"""Instances of the FMU's library, of FMI 2.0 or 3.0, with one set of functions: those of fmpy's FMU2Slave.
+
+FMI 3.0 has arrays where FMI 2.0 lists their elements, and one type for each size of numbers. Here both have the variables of FMI
+2.0, by the same names and value references.
+"""
+
+from copy import copy
+from ctypes import c_double, c_int, c_uint
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+from fmpy import fmi2, fmi3
+
+from .calls import callbacks, listener
+from .values import Refused
+
+TYPES = {"Float64": "Real", "Int32": "Integer"}  # names that differ between the versions
+QUIET = ["logEvents", "logProgress"]  # categories of which FMI 2.0 is silent unless asked
+RAMPS = 20  # from the value reference of an input to that of its time derivative
+BUFFERS = {"Real": c_double, "Integer": c_int, "Boolean": c_int}
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where FMI 3.0 has a variable of FMI 2.0: value reference, type and size of the array that it is an element of."""
+
+    reference: int
+    type: str
+    index: int = 0
+    size: int = 1
+
+
+def scalars(description):
+    """The variables of FMI 2.0 by name, and the places where FMI 3.0 has them by value reference: none for FMI 2.0 itself."""
+    if description.fmiVersion.startswith("2"):
+        return {v.name: v for v in description.modelVariables}, {}
+    variables, places = {}, {}
+    for row in description.modelVariables:
+        if row.causality == "independent":
+            continue
+        size = int(row.dimensions[0].start) if row.dimensions else None
+        for index in range(size or 1):
+            element = copy(row)
+            element.type = TYPES.get(row.type, row.type)
+            if size:
+                element.name, element.valueReference = f"{row.name}[{index + 1}]", row.valueReference + 1 + index
+                element.dimensions, element.shape = [], None
+            variables[element.name] = element
+            places[element.valueReference] = Place(row.valueReference, row.type, index, size or 1)
+    return variables, places
+
+
+class Functions2:
+    """What an instance of FMI 2.0 has besides the functions of fmpy's class."""
+
+    def start(self, log):
+        """Makes the instance, whose messages go to the list `log`."""
+        self.instantiate(callbacks=callbacks(log))
+
+    def reader(self, sort, references):
+        """A function that reads variables of one type at once, as an array."""
+        count = len(references)
+        asked, values = (c_uint * count)(*references), (BUFFERS[sort] * count)()
+        get = getattr(self, "fmi2Get" + sort)
+
+        def read():
+            get(self.component, asked, count, values)
+            return np.array(values)
+
+        return read
+
+
+class Plan:
+    """Arrays of one type that must be read for some of their elements, and where these stand in what has been read."""
+
+    def __init__(self, places):
+        self.rows = list(dict.fromkeys(place.reference for place in places))
+        sizes = {place.reference: place.size for place in places}
+        starts = dict(zip(self.rows, np.cumsum([0, *(sizes[row] for row in self.rows)]).tolist()))
+        self.size = sum(sizes.values())
+        self.picked = [starts[place.reference] + place.index for place in places]
+
+
+class Functions3:
+    """What an instance of FMI 3.0 has besides the functions of fmpy's class; `places` are those of `scalars`."""
+
+    def __init__(self, places, **arguments):
+        super().__init__(**arguments)
+        self.places, self.experiment, self._plans, self._rates = places, {}, {}, {}
+
+    def start(self, log):
+        """Makes the instance, whose messages go to the list `log`: as many as FMI 2.0 sends unasked."""
+        self.instantiate(loggingOn=True, logMessage=listener(log))
+        self.setDebugLogging(False, QUIET)
+
+    def setupExperiment(self, tolerance=None, startTime=0.0, stopTime=None):
+        self.experiment = {"tolerance": tolerance, "startTime": startTime, "stopTime": stopTime}
+
+    def enterInitializationMode(self):
+        super().enterInitializationMode(**self.experiment)
+
+    def _plan(self, references):
+        """The plan for elements of one type."""
+        key = tuple(references)
+        if key not in self._plans:
+            self._plans[key] = Plan([self.places[reference] for reference in key])
+        return self._plans[key]
+
+    def _get(self, references):
+        """Values of variables, each by the function of its type."""
+        values = {}
+        for sort in dict.fromkeys(self.places[reference].type for reference in references):
+            of_type = [reference for reference in references if self.places[reference].type == sort]
+            plan = self._plan(of_type)
+            read = getattr(super(), f"get{FUNCTIONS.get(sort, sort)}")(plan.rows, plan.size)
+            values |= zip(of_type, (read[k] for k in plan.picked))
+        return [values[reference] for reference in references]
+
+    getReal = getInteger = getBoolean = getString = _get
+
+    def _set(self, references, values):
+        """Sets variables, each by the function of its type."""
+        pairs = [(self.places[reference], value) for reference, value in zip(references, values)]
+        for sort, group in groupby(pairs, key=lambda pair: pair[0].type):
+            places, given = zip(*group)
+            getattr(super(), f"set{FUNCTIONS.get(sort, sort)}")([place.reference for place in places], list(given))
+
+    setReal = setInteger = setBoolean = setString = _set
+
+    def setRealInputDerivatives(self, references, orders, values):
+        """Takes time derivatives for the next step: of forces they are inputs, motions move linearly to their end."""
+        if set(orders) - {1}:
+            raise Refused(f"derivatives of order {max(orders)}: only order 1 is possible")
+        self._rates |= dict(zip(references, values))
+
+    def doStep(self, currentCommunicationPoint, communicationStepSize, noSetFMUStatePriorToCurrentPoint=True):
+        ramped = {k + RAMPS: rate for k, rate in self._rates.items() if k + RAMPS in self.places}
+        moved = [k for k in self._rates if k + RAMPS not in self.places]
+        if moved:
+            ends = [value + communicationStepSize * self._rates[k] for k, value in zip(moved, self.getReal(moved))]
+            self.setReal(moved, ends)
+        if ramped:
+            self.setReal(list(ramped), list(ramped.values()))
+        self._rates = {}
+        try:
+            return super().doStep(currentCommunicationPoint, communicationStepSize, noSetFMUStatePriorToCurrentPoint)
+        finally:
+            if ramped:
+                self.setReal(list(ramped), [0.0] * len(ramped))
+
+    def getRealOutputDerivatives(self, references, orders):
+        plan = self._plan(references)
+        rows, values = (c_uint * len(plan.rows))(*plan.rows), (c_double * plan.size)()
+        order = (c_int * len(plan.rows))(*[max(orders)] * len(plan.rows))
+        self.fmi3GetOutputDerivatives(self.component, rows, len(rows), order, values, plan.size)
+        return [values[k] for k in plan.picked]
+
+    def getDirectionalDerivative(self, vUnknown_ref, vKnown_ref, dvKnown):
+        plan = self._plan(vUnknown_ref)
+        found = super().getDirectionalDerivative(plan.rows, vKnown_ref, dvKnown, nSensitivity=plan.size)
+        return [found[k] for k in plan.picked]
+
+    def reader(self, sort, references):
+        """A function that reads variables of one type at once, as an array."""
+        by_type = {}
+        for k, reference in enumerate(references):
+            by_type.setdefault(self.places[reference].type, []).append(k)
+        parts = []
+        for of_type, places in by_type.items():
+            plan = self._plan([references[k] for k in places])
+            rows, values = (c_uint * len(plan.rows))(*plan.rows), (CELLS[of_type] * plan.size)()
+            get = getattr(self, f"fmi3Get{FUNCTIONS.get(of_type, of_type)}")
+            parts.append((get, rows, values, places, plan.picked))
+        result = np.zeros(len(references), float if sort == "Real" else int)
+
+        def read():
+            for get, rows, values, places, picked in parts:
+                get(self.component, rows, len(rows), values, len(values))
+                result[places] = np.array(values)[picked]
+            return result.copy()
+
+        return read
+
+    def getFMUstate(self):
+        return self.getFMUState()
+
+    def setFMUstate(self, state):
+        self.setFMUState(state)
+        self._rates = {}
+
+    def freeFMUstate(self, state):
+        self.freeFMUState(state)
+
+    def serializeFMUstate(self, state):
+        return self.serializeFMUState(state)
+
+    def deSerializeFMUstate(self, serializedState):
+        return self.deserializeFMUState(serializedState)
+
+
+FUNCTIONS = {"Enumeration": "Int64"}  # of a type, where its name is another
+CELLS = {"Float64": fmi3.fmi3Float64, "Int32": fmi3.fmi3Int32, "Enumeration": fmi3.fmi3Int64, "Boolean": fmi3.fmi3Boolean}
+
+
+def unloaded(fmu, name):
+    """An instance that has not been made yet; the library is loaded with it. Its class is made anew, because fmpy may have been
+    reloaded, and has a name from which fmpy knows the version."""
+
+    class FMU2Instance(Functions2, fmi2.FMU2Slave):
+        pass
+
+    class FMU3Instance(Functions3, fmi3.FMU3Slave):
+        pass
+
+    d = fmu.description
+    arguments = {"guid": d.guid, "unzipDirectory": fmu.directory, "instanceName": name}
+    arguments["modelIdentifier"] = d.coSimulation.modelIdentifier
+    return FMU3Instance(fmu.places, **arguments) if fmu.places else FMU2Instance(**arguments)
