@@ -9,7 +9,6 @@ use nalgebra::{DMatrix, DVector};
 pub(super) struct StaticPart {
     /// Which fields.
     pub part: ParityPart,
-    stiffness: CsrMatrix,
     mass: CsrMatrix,
     factor: Cholesky,
     /// The unknowns of the part on the surface, as they come in [`Cholesky::last_block_of_inverse`].
@@ -29,7 +28,7 @@ impl StaticPart {
         ports.dedup();
         let factor = Cholesky::with_last(&stiffness, &ports)?;
         let mass = part.fold(&system.mass, &part);
-        Ok(Self { part, stiffness, mass, factor, ports })
+        Ok(Self { part, mass, factor, ports })
     }
 
     /// Adds this part's share of `S K⁻¹ Sᵀ` [m/(N/m)].
@@ -75,10 +74,8 @@ impl Shapes {
         count: usize,
         progress: &mut dyn FnMut(f64),
     ) -> Result<(DVector<f64>, Self), MechanicsError> {
-        let oscillators: Vec<_> = parts
-            .iter()
-            .map(|StaticPart { stiffness, mass, factor, .. }| Oscillator { stiffness, mass, factor })
-            .collect();
+        let oscillators: Vec<_> =
+            parts.iter().map(|StaticPart { mass, factor, .. }| Oscillator { mass, factor }).collect();
         let modes = lowest_modes_of_parts(&oscillators, count, progress)?;
         let of_part = |(k, modes): (usize, &VibrationModes)| -> Vec<(f64, usize)> {
             modes.squared_frequencies.iter().map(|square| (*square, k)).collect()

@@ -180,7 +180,7 @@ mod tests {
     fn torsion_frequency_of_the_wheel_on_its_hub_is_the_bessel_value() {
         let system = wheel_system(&paper_d(8)).unwrap();
         let factor = Cholesky::new(&system.stiffness).unwrap();
-        let modes = lowest_modes(&system.stiffness, &factor, &system.mass, 6, &mut |_| {}).unwrap();
+        let modes = lowest_modes(&factor, &system.mass, 6, &mut |_| {}).unwrap();
         let participation = modes.shapes.tr_mul(&system.rigid.column(crate::axes::Axis::Rotation.number()));
         let omega = modes.squared_frequencies[participation.iamax()].sqrt();
         let exact = exact_torsion(&paper_d(8));
@@ -193,7 +193,7 @@ mod tests {
     fn modes_are_mass_orthonormal_and_satisfy_the_eigenproblem() {
         let system = rail_system(&paper_d(6)).unwrap();
         let factor = Cholesky::new(&system.stiffness).unwrap();
-        let modes = lowest_modes(&system.stiffness, &factor, &system.mass, 30, &mut |_| {}).unwrap();
+        let modes = lowest_modes(&factor, &system.mass, 30, &mut |_| {}).unwrap();
         let m_phi = system.mass.multiply_columns(&modes.shapes);
         let gram = modes.shapes.tr_mul(&m_phi);
         assert!((gram - nalgebra::DMatrix::identity(30, 30)).amax() < 1e-11);
@@ -204,7 +204,7 @@ mod tests {
             assert!(relative < 1e-8, "mode {j}: {relative:e}");
         }
         assert!(modes.squared_frequencies.as_slice().windows(2).all(|w| w[0] <= w[1]));
-        let again = lowest_modes(&system.stiffness, &factor, &system.mass, 30, &mut |_| {}).unwrap();
+        let again = lowest_modes(&factor, &system.mass, 30, &mut |_| {}).unwrap();
         assert_eq!(modes.shapes, again.shapes);
     }
 

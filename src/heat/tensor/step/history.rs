@@ -7,7 +7,7 @@ const JUMP: f64 = 0.3;
 /// Heat whose changes do not count [W/m]: it warms a rolling contact by less than a kelvin.
 const SLIGHT_HEAT: f64 = 1e4;
 /// Digits after the first of the binary numbers to which shared speeds are rounded.
-const SHARED_DIGITS: u32 = 8;
+const SHARED_DIGITS: u32 = 6;
 
 /// Speeds near the present ones that many steps share: those of the last step, rounded. Where one has changed by more
 /// than rounding does, the present one takes its place.
