@@ -223,12 +223,17 @@ LEAK_RUNNER := valgrind --quiet --leak-check=full --show-leak-kinds=definite --e
 LEAK_TESTS := a_run_from_a_saved_state_is_the_first_bit_for_bit a_serialized_state_continues_in_another_instance \
 	a_state_passed_in_place_of_its_address_is_refused_and_stays \
 	handles_that_are_foreign_freed_or_made_up_are_refused_and_never_followed
+LEAK_TESTS3 := a_damaged_state_is_refused_and_a_whole_one_continues_bit_for_bit what_this_fmu_does_not_have_is_refused_politely \
+	adjoint_derivatives_are_the_transpose_of_directional_ones
 
 leak-check:
 	@if command -v valgrind > /dev/null; then \
-		WHEELRAIL_KEEP_LOADED=1 $(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' --test fmi_state \
-			-- --test-threads 1 --exact $(LEAK_TESTS) > $(TARGET)/leak-check.log 2>&1; status=$$?; \
-		cat $(TARGET)/leak-check.log; grep -q '$(words $(LEAK_TESTS)) passed' $(TARGET)/leak-check.log && exit $$status; \
+		for tests in "fmi_state $(LEAK_TESTS)" "fmi3_lifecycle $(LEAK_TESTS3)"; do \
+			set -- $$tests; program=$$1; shift; \
+			WHEELRAIL_KEEP_LOADED=1 $(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' \
+				--test $$program -- --test-threads 1 --exact "$$@" > $(TARGET)/leak-check.log 2>&1; status=$$?; \
+			cat $(TARGET)/leak-check.log; grep -q "$$# passed" $(TARGET)/leak-check.log && [ $$status = 0 ] || exit 1; \
+		done; \
 	else echo "leak-check skipped: valgrind is not installed"; fi
 
 house:

@@ -69,7 +69,7 @@ def of_rust(text):
 def of_makefile(text):
     """Commands of the head, which `make help` prints: `make`, a target, and variables of it."""
     head = "\n".join(line for line in text.split("\n\n")[0].splitlines() if "ARGS=\"...\"" not in line)
-    return re.findall(r"\bmake [a-z-]+(?: [A-Z]+=(?:\"[^\"]*\"|[^\s;,:]+(?::[^\s;,]+)?))*", head)
+    return re.findall(r"\bmake [a-z0-9-]+(?: [A-Z]+=(?:\"[^\"]*\"|[^\s;,:]+(?::[^\s;,]+)?))*", head)
 
 
 def of_notebook(text):

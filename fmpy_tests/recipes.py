@@ -58,6 +58,7 @@ CHECKOUT = (
     ),  # fmt: skip
     Recipe("make random-parameters ARGS=2", ("make random-parameters",), "2 parameter sets"),
     Recipe("make fmu", says="Nothing to be done"),
+    Recipe("make fmu3", says="Nothing to be done"),
     Recipe("make python-wheel", says=".whl"),
     Recipe("make house", ("make house", "tools/house.py"), "lines"),
     Recipe("tools/house.py --all"),

@@ -20,6 +20,7 @@
 //! ```
 
 pub mod advice;
+mod checkpoint;
 mod foreign_state;
 mod ingredients;
 mod lock;
@@ -33,6 +34,7 @@ mod tests;
 mod tools;
 pub mod validity;
 
+pub use checkpoint::Checkpoint;
 pub use ingredients::PrepareError;
 pub use store::{BasisStore, CACHE_VARIABLE, StoreError, basis_file_name};
 
@@ -41,16 +43,18 @@ use crate::heat::HeatError;
 use crate::mechanics::{self, Basis};
 use crate::rolling::{self, fields, outputs, sensitivity, stationary, substeps};
 use crate::surface;
+use checkpoint::{KEPT_POINTS, followed_back};
 use foreign_state::is_plausible;
 use ingredients::Ingredients;
 use lock::lock;
-use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
 use tools::{Shelf, Tools};
 
-pub use crate::rolling::control::{Direction, DriveRow, InputError, RAMP_NUMBERS, STEEPEST};
+pub use crate::rolling::control::{DriveRow, InputError};
 pub use crate::rolling::creepages::{STANDSTILL, peripheral_velocity};
+pub use crate::rolling::direction::Direction;
 pub use crate::rolling::fields::{BodyField, FieldError, Fields, Stress, TemperatureField};
+pub use crate::rolling::ramp::{RAMP_NUMBERS, STEEPEST};
 pub use crate::rolling::substeps::LONGEST_STEP;
 pub use crate::rolling::{
     Difference, Drive, Inputs, Lateral, MOST_LINES, Origin, OutputRow, Outputs, PROFILE_POINTS, Read, Rotation, State,
@@ -156,26 +160,6 @@ impl Model {
     }
 }
 
-/// All that a simulation needs to continue bit for bit, besides its model and its tunable parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Checkpoint {
-    /// The physical state.
-    pub state: State,
-    /// Tunable parameters with which it was computed; they may have changed since.
-    pub tuning: Tuning,
-    /// Origin of the state, for derivatives by inputs.
-    pub origin: Origin,
-    /// Times \[s] and outputs of the communication points before, latest first, for derivatives in time.
-    pub before: Vec<(f64, Outputs)>,
-}
-
-/// Communication points kept for derivatives in time.
-const KEPT_POINTS: usize = 2;
-/// Largest ratio of the last step to the one before that counts in them.
-const LARGEST_RATIO: f64 = 10.0;
-/// How far a stationary motion is followed back from the start for them [s].
-const LEAD: f64 = 1e-3;
-
 impl Checkpoint {
     /// Checkpoint of a stationary start.
     fn stationary(model: &Model, tuning: &Tuning, inputs: &Inputs) -> Result<Self, StepError> {
@@ -187,12 +171,8 @@ impl Checkpoint {
         let found = stationary::start(&model.rolling, tuning, inputs, &mut tools.workspace);
         model.shelf.put_back(tools);
         let state = found?;
-        let mut earlier = outputs::observe(&model.rolling, &state);
-        earlier.wheel_distance -= LEAD * earlier.wheel_velocity;
-        earlier.wheel_angle -= LEAD * earlier.wheel_omega;
-        earlier.wheel_velocity -= LEAD * earlier.wheel_acceleration;
-        earlier.wheel_omega -= LEAD * earlier.wheel_angular_acceleration;
-        let (before, origin) = (vec![(state.clock.time - LEAD, earlier)], Origin::Stationary(*inputs));
+        let before = vec![followed_back(state.clock.time, outputs::observe(&model.rolling, &state))];
+        let origin = Origin::Stationary(*inputs);
         let checkpoint = Self { state, tuning: tuning.clone(), origin, before };
         *lock(&model.start) = Some((*inputs, checkpoint.clone()));
         Ok(checkpoint)
@@ -310,22 +290,9 @@ impl Simulation {
         found
     }
 
-    /// Time derivative of an output: second-order backward difference of the last communication points, which the
-    /// stationary motion precedes.
+    /// Time derivative of an output: see [`Checkpoint::rate`].
     pub fn rate(&self, output: impl Fn(&Outputs) -> f64) -> f64 {
-        let now = output(&self.outputs);
-        let slope =
-            |(time, before): &(f64, Outputs)| (now - output(before)) / (self.checkpoint.state.clock.time - time);
-        let points = &self.checkpoint.before;
-        match (points.first(), points.get(1)) {
-            (Some(a), Some(b)) => {
-                let (h, total) = (self.checkpoint.state.clock.time - a.0, self.checkpoint.state.clock.time - b.0);
-                // A much shorter step before would amplify its rounding.
-                slope(a) + (slope(a) - slope(b)) * (h / (total - h)).min(LARGEST_RATIO)
-            }
-            (Some(a), _) => slope(a),
-            (None, _) => 0.0,
-        }
+        self.checkpoint.rate(&self.outputs, output)
     }
 
     /// Outputs of the present state, but for deferred ones.

@@ -3,6 +3,7 @@
 #![allow(unsafe_code)]
 
 mod slave;
+mod slave3;
 
 use slave::*;
 use std::collections::BTreeMap;
@@ -12,6 +13,7 @@ use std::path::Path;
 use std::ptr;
 use std::sync::atomic::{AtomicI32, Ordering};
 use wheelrail::fmi::v2::variables::variables;
+use wheelrail_slave::Status;
 
 /// Largest stack of any call [bytes]: a quarter of what the smallest usual thread has.
 const LIMIT: usize = 64 << 10;
@@ -97,6 +99,33 @@ fn measure(depths: &mut Depths, dll: &libfmi::Fmi2Dll, what: &str, settings: &dy
     depths.of("fmi2FreeInstance", what, || drop(slave));
 }
 
+/// Everything that a master of FMI 3.0 may do with one wheel.
+fn measure3(depths: &mut Depths, preset: &str) {
+    let arguments = slave3::Arguments { logging: 1, ..Default::default() };
+    let made = depths.of("fmi3InstantiateCoSimulation", preset, || slave3::Wheel::try_new(&arguments));
+    let wheel = made.unwrap_or_else(|heard| panic!("{heard:?}"));
+    depths.of("fmi3SetString", preset, || assert_eq!(wheel.set_string("preset", preset), Status::Ok));
+    depths.of("fmi3EnterInitializationMode", preset, || wheel.enter(0.0, None));
+    depths.of("fmi3ExitInitializationMode", preset, || assert_eq!(wheel.exit(), Status::Ok));
+    let (mut state, mut other) = (ptr::null_mut(), ptr::null_mut());
+    for k in 0..4 {
+        depths.of("fmi3SetFloat64", preset, || wheel.set("drive.moment", -200.0 * f64::from(k)));
+        depths.of("fmi3DoStep", preset, || assert_eq!(wheel.step(1e-3 * f64::from(k), 1e-3), Status::Ok));
+        depths.of("fmi3GetFloat64", preset, || wheel.array("profile.temperature_wheel_below"));
+    }
+    depths.of("fmi3GetFMUState", preset, || wheel.save(&mut state));
+    let bytes = depths.of("fmi3SerializeFMUState", preset, || wheel.serialize(state));
+    depths.of("fmi3DeserializeFMUState", preset, || assert_eq!(wheel.deserialize(&bytes, &mut other), Status::Ok));
+    depths.of("fmi3SetFMUState", preset, || wheel.restore(other));
+    let [unknown, known] = ["contact.force_x", "drive.load"].map(slave3::reference);
+    depths.of("fmi3GetAdjointDerivative", preset, || wheel.adjoint(&[unknown], &[known], &[1.0]).unwrap());
+    depths.of("fmi3GetOutputDerivatives", preset, || wheel.output_rates(&[unknown], &[1], 1).unwrap());
+    depths.of("fmi3DoStep", "a wrong time", || wheel.step(-1.0, 1e-3));
+    depths.of("fmi3Terminate", preset, || wheel.terminate());
+    depths.of("fmi3Reset", preset, || wheel.reset());
+    depths.of("fmi3FreeInstance", preset, || drop(wheel));
+}
+
 /// Items of choices by name, files and all that is set before the start.
 fn text_of(name: &str) -> String {
     std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("resources").join(name)).unwrap()
@@ -113,6 +142,7 @@ fn all_calls() -> Depths {
             assert_eq!(slave.set_string("preset", preset), fmi2OK);
         };
         measure(&mut depths, &dll, preset, &settings, [1e-3, 4.0]);
+        measure3(&mut depths, preset);
     }
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let [profile, saved] = ["shell_rail.csv", "shell_saved.csv"].map(|name| folder.join(name).display().to_string());
@@ -165,7 +195,7 @@ fn every_call_needs_at_most_64_kb_of_stack() {
         println!("{function:<30}{:>7.1} kB  {what}", *depth as f64 / 1024.0);
     }
     let deep: Vec<_> = depths.iter().filter(|(_, (depth, _))| *depth > LIMIT).collect();
-    assert!(depths.len() >= 18 && deep.is_empty(), "{deep:?}");
+    assert!(depths.len() >= 33 && deep.is_empty(), "{deep:?}");
 }
 
 #[link(name = "m")]

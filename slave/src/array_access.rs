@@ -38,7 +38,8 @@ pub trait ArrayAccess: Slave {
     }
 }
 
-fn check_length(argument: &str, given: usize, wanted: usize) -> Outcome {
+/// Refuses another number of values than variables have.
+pub fn check_length(argument: &str, given: usize, wanted: usize) -> Outcome {
     if given == wanted {
         return Ok(());
     }

@@ -88,7 +88,7 @@ impl Log {
         Log { sink, enabled: [on; CATEGORIES.len()], loud: Status::Warning }
     }
 
-    /// The same log, in which only messages of this status or a worse one pass unasked.
+    /// A log like this, in which only messages of this status or a worse one pass unasked.
     pub fn quiet_below(self, loud: Status) -> Log {
         Log { loud, ..self }
     }

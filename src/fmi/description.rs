@@ -1,4 +1,4 @@
-//! What the model descriptions of both versions of FMI say alike.
+//! Parts of the model description that both versions of FMI have.
 
 use super::settings::start_value;
 use super::table::table;

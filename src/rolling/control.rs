@@ -1,6 +1,7 @@
 //! Mixed control: which partner of each work-conjugate pair is prescribed, and to what. An input is one row here, and
 //! its use in the code.
 
+use super::ramp::{RAMP_NUMBERS, RampRow, STEEPEST};
 use crate::config::row::{Level, Row};
 use crate::config::units::Measure;
 use crate::config::value::{RowValue, ValueLimits, choice};
@@ -111,27 +112,6 @@ pub struct DriveRow {
     /// Input that is its time derivative, of forces, friction and heat: what is prescribed as a motion moves linearly anyway.
     pub ramp: Option<RampRow>,
 }
-
-/// The row of the time derivative of a real input, an input as well.
-#[derive(Clone, Copy, Debug)]
-pub struct RampRow {
-    /// Fixed number: [`RAMP_NUMBERS`] more than that of the input.
-    pub number: u32,
-    /// Name in the form `group.name`.
-    pub name: &'static str,
-    /// Unit.
-    pub measure: Measure,
-    /// Usual size.
-    pub nominal: f64,
-    /// Meaning, plain text.
-    pub text: &'static str,
-}
-
-/// Distance of the number of a ramp from that of its input.
-pub const RAMP_NUMBERS: u32 = 20;
-
-/// Largest time derivative that is an input, in units of the input per second.
-pub const STEEPEST: f64 = 1e15;
 
 impl DriveRow {
     /// Heat that a source brings: of all inputs these alone are powers.
@@ -342,21 +322,6 @@ pub struct InputError {
     pub unit: &'static str,
 }
 
-/// Direction in which inputs change: their values at the start of a step, and their time derivatives.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Direction {
-    /// Components of the values.
-    pub drive: Drive,
-    /// Components of the time derivatives.
-    pub rate: Drive,
-}
-
-impl From<&Drive> for Direction {
-    fn from(drive: &Drive) -> Self {
-        Direction { drive: *drive, rate: Drive::default() }
-    }
-}
-
 impl Drive {
     /// All that presses the hub down \[N].
     pub fn pressing(&self) -> f64 {
@@ -382,25 +347,17 @@ impl Drive {
 }
 
 impl Inputs {
-    /// The inputs a distance away along a direction.
-    pub fn along(&self, direction: &Direction, by: f64) -> Self {
-        let away = |value: f64, component: f64| value + by * component;
-        let (drive, rate) = (self.drive.zip(&direction.drive, away), self.rate.zip(&direction.rate, away));
-        Inputs { drive, rate, ..*self }
-    }
-
     /// Refuses inputs out of range, infinite or not a number; rates of motions only need to be finite.
     pub fn validate(&self) -> Result<(), InputError> {
         self.drive.validate()?;
         for (row, value) in Drive::ROWS.iter().zip(self.rate.values()) {
-            if !value.is_finite() {
+            if let Some(RampRow { name, measure, .. }) = row.ramp {
+                let (low, high) = (-STEEPEST, STEEPEST);
+                let refused = InputError { name, value, low, high, unit: measure.unit };
+                (low..=high).contains(&value).then_some(()).ok_or(refused)?;
+            } else if !value.is_finite() {
                 let (low, high) = (f64::NEG_INFINITY, f64::INFINITY);
                 return Err(InputError { name: row.rate_name, value, low, high, unit: "1" });
-            }
-            if let Some(RampRow { name, measure, .. }) = row.ramp
-                && value.abs() > STEEPEST
-            {
-                return Err(InputError { name, value, low: -STEEPEST, high: STEEPEST, unit: measure.unit });
             }
         }
         Ok(())
@@ -447,10 +404,14 @@ mod tests {
     fn a_rate_that_is_not_finite_is_refused_as_a_rate() {
         let (rotation, translation, vertical, lateral) =
             (Rotation::Moment, Translation::Force, Vertical::Force, Lateral::Velocity);
-        let rate = Drive { load: f64::INFINITY, ..Drive::default() };
-        let inputs = Inputs { rotation, translation, vertical, lateral, drive: Drive::default(), rate };
-        let message = inputs.validate().unwrap_err().to_string();
-        assert_eq!(message, "der(drive.load) = inf is outside its range: finite numbers");
+        let refused = |rate: Drive| {
+            let inputs = Inputs { rotation, translation, vertical, lateral, drive: Drive::default(), rate };
+            inputs.validate().unwrap_err().to_string()
+        };
+        let motion = refused(Drive { velocity: f64::INFINITY, ..Drive::default() });
+        assert_eq!(motion, "der(drive.velocity) = inf is outside its range: finite numbers");
+        let force = refused(Drive { load: f64::INFINITY, ..Drive::default() });
+        assert!(force.starts_with("drive.load_rate = inf is outside its range: "), "{force}");
     }
 
     #[test]

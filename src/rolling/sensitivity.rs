@@ -7,7 +7,8 @@
 //! perturbation is reduced. Between changes of state the function is analytic, and the difference quotient has about
 //! seven correct digits; at a kink and at the end of a range it falls back to the derivative of one side.
 
-use super::control::{Direction, Drive, Inputs};
+use super::control::{Drive, Inputs};
+use super::direction::Direction;
 use super::error::StepError;
 use super::line::Line;
 use super::model::{RollingModel, Workspace};
@@ -112,7 +113,7 @@ pub fn difference(
     for _ in 0..TRIES {
         let mut beyond_range = false;
         let mut ends = [-1.0, 1.0].map(|sign| {
-            let end = repeat(model, tuning, origin, &inputs.along(direction, sign * width), workspace);
+            let end = repeat(model, tuning, origin, &direction.away(inputs, sign * width), workspace);
             beyond_range |= matches!(end, Err(StepError::Input(_)));
             end.ok().filter(|end| same_branch(model, end, state)).map(|end| Box::new(observe_all(model, &end)))
         });

@@ -14,7 +14,7 @@ use wheelrail_slave::c_abi::v3::types::*;
 /// A message: status, category, text.
 pub type Heard = (Status, String, String);
 
-/// What a master passes as its environment: the messages it has got.
+/// Environment of a master: the messages it has got.
 type Ear = RefCell<Vec<Heard>>;
 
 unsafe extern "C" fn hear(environment: *mut c_void, status: Status, category: fmi3String, text: fmi3String) {
@@ -62,7 +62,7 @@ fn c(text: &str) -> CString {
     CString::new(text).unwrap()
 }
 
-/// What a step tells: event, end of the simulation, early return, time.
+/// News of a step: event, end of the simulation, early return, time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Told {
     pub event: u8,

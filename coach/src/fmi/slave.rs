@@ -8,6 +8,7 @@ use crate::coupling::{Running, Seen};
 use crate::parameters::Parameters;
 use std::fmt::Debug;
 use std::path::PathBuf;
+use wheelrail_slave::array_access::check_length;
 use wheelrail_slave::lifecycle::Phase;
 use wheelrail_slave::{
     ArrayAccess, CallError, ElementType, Life, Outcome, Reference, Scalar, ScalarAccess, Slave, Type,
@@ -194,10 +195,7 @@ impl ArrayAccess for CoachSlave {
     }
 
     fn write(&mut self, references: &[Reference], wanted: ElementType, values: Vec<Scalar>, life: &Life) -> Outcome {
-        if references.len() != values.len() {
-            let (given, right) = (values.len(), references.len());
-            return Err(CallError::error(format!("nValues = {given}, but these variables have {right} values")));
-        }
+        check_length("nValues", values.len(), references.len())?;
         self.set_values(references, values, life, |variable, _| {
             Self::check_type(variable, variable.element_type(), wanted)
         })

@@ -1,4 +1,4 @@
-//! What both versions of the standard do when a component is made or freed.
+//! Making and freeing of components, in both versions of the standard.
 
 use super::component::{Address, Component, panic_text};
 use super::environment::Host;

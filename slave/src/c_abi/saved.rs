@@ -1,4 +1,4 @@
-//! What both versions of the standard do with saved states.
+//! Saving, restoring and freeing of states, in both versions of the standard.
 
 use super::component::Component;
 use super::marshal::{slice, store};

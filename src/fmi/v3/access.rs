@@ -4,6 +4,7 @@ use super::description;
 use crate::fmi::instance::WheelSlave;
 use crate::fmi::table::{find, no_such_variable};
 use crate::fmi::variable::{Causality, Kind, Variable};
+use wheelrail_slave::array_access::check_length;
 use wheelrail_slave::lifecycle::Phase;
 use wheelrail_slave::{ArrayAccess, CallError, ElementType, Life, Outcome, Reference, Scalar};
 
@@ -59,10 +60,7 @@ impl ArrayAccess for WheelSlave {
 
     fn write(&mut self, references: &[Reference], wanted: ElementType, values: Vec<Scalar>, life: &Life) -> Outcome {
         let elements = elements(&rows(references, wanted)?);
-        if elements.len() != values.len() {
-            let (given, right) = (values.len(), elements.len());
-            return Err(CallError::error(format!("nValues = {given}, but these variables have {right} values")));
-        }
+        check_length("nValues", values.len(), elements.len())?;
         self.set_values(elements.iter().zip(values.into_iter().map(Into::into)), life)
     }
 

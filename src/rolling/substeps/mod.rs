@@ -32,9 +32,8 @@ use crate::axes::PerAxis;
 use crate::config::Tuning;
 use crate::heat::{HeatError, HeatFlows};
 use control::{Control, Verdict};
+use events::{condition, shortened};
 use prediction::{Found, controlled};
-
-pub use events::advance_to_event;
 
 /// Longest communication step \[s].
 pub const LONGEST_STEP: f64 = 3600.0;
@@ -140,6 +139,31 @@ fn advance_until(
     }
     workspace.states = [now, next];
     result.map(|_| if share == 1.0 { span.h } else { h * share })
+}
+
+/// Computes the state `out` after a communication step of at most `h` seconds under `inputs`; returns the inputs over it and its
+/// length \[s]. It ends after the internal step in which an event happens, and is then computed once more as a step of that
+/// length, so that nothing depends on what was asked for. A step over which the height of the rail changes is not cut, nor one
+/// that makes up for steps too short to be computed. On error `out` is meaningless.
+pub fn advance_to_event(
+    model: &RollingModel,
+    tuning: &Tuning,
+    state: &State,
+    (inputs, h): (&Inputs, f64),
+    workspace: &mut Workspace,
+    out: &mut State,
+) -> Result<(Inputs, f64), StepError> {
+    let level = state.elevation == inputs.at(h).elevation && inputs.drive.elevation_rate == 0.0;
+    let (cut, before) = (level && state.clock.pending == 0.0, condition(state));
+    let stop = |now: &State| condition(now) != before;
+    let span = Span { inputs, h, stop: if cut { Some(&stop) } else { None } };
+    let reached = advance_until(model, tuning, state, &span, workspace, out)?;
+    if reached == h {
+        return Ok((*inputs, h));
+    }
+    let inputs = shortened(state, inputs, h, reached);
+    advance(model, tuning, state, &inputs, reached, workspace, out)?;
+    Ok((inputs, reached))
 }
 
 /// Inputs over a communication step, as the internal steps take them.

@@ -2,7 +2,7 @@
 
 /// Exports the C functions of FMI 3.0 for a type that implements [`ArrayAccess`](crate::ArrayAccess).
 ///
-/// A library calls it once, in a module of its own; `fmpy_tests/test_fmi3_header.py` compares every function with the header
+/// A library calls it once, in a module of its own; `fmpy_tests/test_fmi3.py` compares every function with the header
 /// of the standard.
 #[macro_export]
 macro_rules! export_fmi3 {

@@ -1,7 +1,7 @@
 //! Types of the C interface, as `fmi3PlatformTypes.h` and `fmi3FunctionTypes.h` of the standard declare them.
 //!
 //! Booleans and enumerations among the arguments are integers here: a number that is none of them is refused, not trusted.
-//! `fmpy_tests/test_fmi3_header.py` compares the functions with the header.
+//! `fmpy_tests/test_fmi3.py` compares the functions with the header.
 
 #![allow(non_camel_case_types)]
 

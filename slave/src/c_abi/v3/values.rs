@@ -2,6 +2,7 @@
 
 use super::types::*;
 use crate::ArrayAccess;
+use crate::array_access::check_length;
 use crate::c_abi::call;
 use crate::c_abi::component::Component;
 use crate::c_abi::marshal::{c_string, slice, store, text};
@@ -13,10 +14,7 @@ type Counted<T> = (T, usize);
 
 /// Writes as many values as the master expects.
 unsafe fn store_all<T>((first, count): Counted<*mut T>, values: Vec<T>, argument: &str) -> Outcome {
-    if values.len() != count {
-        let right = values.len();
-        return Err(CallError::error(format!("n{argument} = {count}, but these variables have {right} values")));
-    }
+    check_length(&format!("n{argument}"), count, values.len())?;
     // SAFETY: see the module.
     unsafe { store(first, values, &argument.to_lowercase()) }
 }
