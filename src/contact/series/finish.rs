@@ -104,7 +104,6 @@ fn remember(
         }
     }
     state.past[0] = now;
-    state.slope = line.slope;
     history.friction.advance(time, slope_power(line), |q| [force[q], line.slips[q]])
 }
 
