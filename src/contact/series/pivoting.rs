@@ -2,7 +2,7 @@
 
 use super::chebyshev::{Arch, TERMS};
 use super::contact::{MOST_LINES, SeriesContact};
-use super::points::{COUNT, Directions, PointProblem, Shears};
+use super::points::{COUNT, Directions, Pivoting, PointProblem, Shears};
 use super::series_line::SeriesLine;
 use super::state::Tractions;
 use super::stick::{self, Motions, Settling};
@@ -11,10 +11,8 @@ use super::surface::SmoothSurfaces;
 use crate::contact::error::ContactError;
 use std::f64::consts::PI;
 
-/// Changes of states that are tried; those after which fewer points must contradict friction, until they change one by
-/// one (Júdice and Pires, *Comput. Oper. Res.* 21 (1994) 587–596).
+/// Changes of states that are tried.
 const MOST_TRIALS: usize = 60;
-const PATIENCE: usize = 4;
 /// Shortest way of the material in a step, over the half-width of the patch \[1]: below, the creepage under a held force
 /// remembers every place where slip has begun, and twelve points miss it by some per cent.
 const SHORTEST_WAY: f64 = 0.25;
@@ -164,32 +162,12 @@ fn on_points(contact: &mut SeriesContact) -> Result<(), ContactError> {
 
 /// Finds the states of all points under the present pressures, with shear and motions.
 fn find_states(contact: &mut SeriesContact) -> Result<(), ContactError> {
-    let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+    let mut pivoting = Pivoting::default();
     for _ in 0..MOST_TRIALS {
         let asked = contact.try_states()?;
-        let states = contact.lines.iter().map(SeriesLine::directions);
-        let contradict =
-            |(asked, states): (&Directions, Directions)| asked.iter().zip(states).filter(|(a, s)| **a != *s).count();
-        let wrong: usize = asked.iter().zip(states).map(contradict).sum();
-        if wrong == 0 {
+        let states = contact.lines.iter_mut().filter_map(|line| line.tractions.directions.as_mut());
+        if !pivoting.change(states.zip(&asked)) {
             return Ok(());
-        }
-        if wrong < fewest {
-            (fewest, patience) = (wrong, PATIENCE);
-        } else {
-            patience = patience.saturating_sub(1);
-        }
-        let one_by_one = patience == 0;
-        for (line, asked) in contact.lines.iter_mut().zip(&asked).rev() {
-            let Some(states) = &mut line.tractions.directions else { continue };
-            let changing = states.iter_mut().zip(asked).rev().filter(|(state, asked)| *state != *asked);
-            let mut changed = 0;
-            for (state, asked) in changing.take(if one_by_one { 1 } else { COUNT }) {
-                (*state, changed) = (*asked, changed + 1);
-            }
-            if one_by_one && changed > 0 {
-                break;
-            }
         }
     }
     Err(ContactError::Unsuited { reason: "the states of points go in circles" })
