@@ -21,14 +21,18 @@ const ROUGHEST: f64 = 1e-2;
 const SHARE: f64 = 0.03;
 /// Steps of Newton's method that are tried whole, and with a search along each.
 const WHOLE: usize = 12;
-const SEARCHED: usize = 60;
+const SEARCHED: usize = 30;
 /// Share of the promised fall of the violations that a step has to keep, and the shortest step \[1].
 const KEPT: f64 = 0.1;
-/// Violation of friction that ends searches on the way \[1], and parts of a path.
-const ROUGH: f64 = 1e-6;
-const MOST_PARTS: usize = 40;
+/// Violation of friction that ends searches on the way \[1].
+const ROUGH: f64 = 1e-4;
+/// Rounds of a search that draws the shear to the one before, and how strongly it begins to \[1].
+const ROUNDS: usize = 16;
+const DRAG: f64 = 1.0;
+/// Share of the correction below which a search does without \[1].
+const LEAST_SHARE: f64 = 0.3;
 /// Violations of friction that end a search where whole steps, and where all else has failed \[1].
-const UNSEEN: [f64; 2] = [1e-5, 1e-3];
+const UNSEEN: [f64; 2] = [1e-5, 5e-3];
 /// Relative difference of violations that repeat themselves \[1].
 const REPEATED: f64 = 1e-6;
 const SHORTEST: f64 = 0.01;
@@ -57,7 +61,7 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
 enum Search {
     Whole,
     Along,
-    Path,
+    Drawn,
 }
 
 /// Shears, slips by all but the known ones, and motions.
@@ -74,6 +78,8 @@ struct ConeSearch {
     most: Vec<f64>,
     /// True until a first correction has been found.
     first: bool,
+    /// Share of the correction: whole but where no shear is found with that.
+    share: f64,
 }
 
 /// The tangential problem of all lines under given pressures, and where the search is in it.
@@ -98,7 +104,15 @@ impl ConeSearch {
         };
         let shears: Vec<_> = contact.lines.iter().map(shear).collect();
         let most = contact.lines.iter().map(|line| line.before_friction * line.tractions.pressure.terms[0]);
-        Self { uncorrected: shears.clone(), uncorrected_motion: PerAxis::default(), shears, states: vec![[0; COUNT]; contact.lines.len()], most: most.collect(), first: true }
+        Self {
+            uncorrected: shears.clone(),
+            uncorrected_motion: PerAxis::default(),
+            shears,
+            states: vec![[0; COUNT]; contact.lines.len()],
+            most: most.collect(),
+            first: true,
+            share: 1.0,
+        }
     }
 
     /// Gives all lines the tractions of the search on their present patches.
@@ -130,13 +144,21 @@ impl ConeSearch {
         let mut violation = newton.largest();
         newton.run(contact, tolerance, moved)?;
         self.uncorrected.clone_from(&newton.shears);
-        let motion = newton.rigid;
-        newton.correct();
+        let (motion, found, corrections) = (newton.rigid, newton.now(), newton.corrections());
+        newton.correct(self.share, &corrections);
         if !std::mem::replace(&mut self.first, false) {
             newton.take(contact, &self.shears, PerAxis::default());
         }
         violation = violation.max(newton.largest());
-        newton.run(contact, tolerance, moved)?;
+        while let Err(error) = newton.run(contact, tolerance, moved) {
+            if self.share == 0.0 {
+                return Err(error);
+            }
+            newton.correct(-self.share, &corrections);
+            self.share = if self.share > LEAST_SHARE { 0.5 * self.share } else { 0.0 };
+            newton.correct(self.share, &corrections);
+            newton.restart(&found);
+        }
         self.uncorrected_motion = PerAxis::from_fn(|axis| motion[axis] - newton.rigid[axis]);
         let left = newton.largest();
         self.shears = newton.shears;
@@ -199,18 +221,16 @@ impl<'a> Newton<'a> {
     }
 
     /// Goes on until friction is violated by no more than the `tolerance`: by whole steps, or else with a search along
-    /// steps, or on a path of the data from the present shear on. Where a single point neither sticks nor slips, next to
+    /// steps, or drawn to the shear before in every round. Where a single point neither sticks nor slips, next to
     /// the pole of a spin, what is left of it has no more to tell; so a violation that nobody sees is a solution, too.
     fn run(&mut self, contact: &mut SeriesContact, tolerance: f64, moved: bool) -> Result<(), ContactError> {
         let begun = self.now();
         let mut best = (self.largest(), begun.clone());
-        for (search, unseen) in [(Search::Whole, UNSEEN[0]), (Search::Along, UNSEEN[1]), (Search::Path, UNSEEN[1])] {
+        for (search, unseen) in [(Search::Whole, UNSEEN[0]), (Search::Along, UNSEEN[1]), (Search::Drawn, UNSEEN[1])] {
             let found = match search {
                 Search::Whole => self.steps(contact, tolerance, (WHOLE, false, moved), &mut best),
                 Search::Along => self.steps(contact, tolerance, (SEARCHED, true, moved), &mut best),
-                Search::Path => {
-                    self.follow(contact) && self.steps(contact, tolerance, (SEARCHED, true, moved), &mut best)
-                }
+                Search::Drawn => self.approach(contact, tolerance, &mut best),
             };
             if found {
                 return Ok(());
@@ -235,42 +255,40 @@ impl<'a> Newton<'a> {
         self.verdicts = self.judge(&self.shears, &self.slips);
     }
 
-    /// Corrects the slips, once its shear is found, by those in the places of the shear.
-    fn correct(&mut self) {
-        for ((problem, shear), slips) in self.problems.iter_mut().zip(&self.shears).zip(&self.slips) {
-            let correction = problem.correction(shear, slips);
-            problem.add(1.0, &correction);
-        }
+    /// Corrections of the slips by those in the places of the present shear.
+    fn corrections(&self) -> Vec<Vectors> {
+        let all = self.problems.iter().zip(&self.shears).zip(&self.slips);
+        all.map(|((problem, shear), slips)| problem.correction(shear, slips)).collect()
+    }
+
+    /// Corrects the known slips by a share.
+    fn correct(&mut self, share: f64, corrections: &[Vectors]) {
+        self.problems.iter_mut().zip(corrections).for_each(|(problem, slips)| problem.add(share, slips));
         self.verdicts = self.judge(&self.shears, &self.slips);
     }
 
-    /// Follows the solutions of slips that change from those whose solution is the present shear to the known ones; true if
-    /// it arrives.
-    fn follow(&mut self, contact: &mut SeriesContact) -> bool {
-        let missing = |((problem, shear), slips): ((&ConeProblem, &Vectors), &[f64; SLIPS])| problem.missing(shear, slips);
-        let missing: Vec<_> = self.problems.iter().zip(&self.shears).zip(&self.slips).map(missing).collect();
-        let add = |newton: &mut Self, share: f64| {
-            newton.problems.iter_mut().zip(&missing).for_each(|(problem, slips)| problem.add(share, slips));
+    /// Draws the shear to that before, round by round; true if whole steps find the solution from one of these shears on.
+    fn approach(&mut self, contact: &mut SeriesContact, tolerance: f64, best: &mut (f64, Begun)) -> bool {
+        let draw = |newton: &mut Self, drag: f64| {
+            newton.problems.iter_mut().zip(&newton.shears).for_each(|(problem, shear)| problem.draw(drag, shear));
+            newton.verdicts = newton.judge(&newton.shears, &newton.slips);
         };
-        add(self, 1.0);
-        let (mut left, mut part) = (1.0_f64, 0.25_f64);
-        for _ in 0..MOST_PARTS {
-            let (begun, mut best) = (self.now(), (0.0, Begun::default()));
-            let next = (left - part).max(0.0);
-            add(self, next - left);
-            self.restart(&begun);
-            if self.steps(contact, ROUGH, (WHOLE, false, false), &mut best) {
-                (left, part) = (next, 1.7 * part);
-                if left == 0.0 {
-                    return true;
-                }
-            } else {
-                add(self, left - next);
+        let mut drag = DRAG;
+        for _ in 0..ROUNDS {
+            let begun = self.now();
+            draw(self, drag);
+            let drawn = self.steps(contact, ROUGH, (WHOLE, false, false), &mut (0.0, Begun::default()));
+            if !drawn {
                 self.restart(&begun);
-                part *= 0.4;
+                drag *= 8.0;
             }
+            draw(self, 0.0);
+            let begun = self.now();
+            if drawn && self.steps(contact, tolerance, (WHOLE, false, false), best) {
+                return true;
+            }
+            self.restart(&begun);
         }
-        add(self, -left);
         false
     }
 
@@ -319,7 +337,9 @@ impl<'a> Newton<'a> {
         loop {
             let mix = |old: f64, new: f64| old + part * (new - old);
             let mut tried = self.shears.clone();
-            for (old, new) in tried.as_flattened_mut().as_flattened_mut().iter_mut().zip(shears.as_flattened().as_flattened()) {
+            for (old, new) in
+                tried.as_flattened_mut().as_flattened_mut().iter_mut().zip(shears.as_flattened().as_flattened())
+            {
                 *old = mix(*old, *new);
             }
             let mut moved = self.slips.clone();

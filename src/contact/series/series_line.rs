@@ -1,8 +1,8 @@
 //! One line on its way to the solution on a single patch.
 
+use super::across::Across;
 use super::chebyshev::Arch;
 use super::constants::Constants;
-use super::across::Across;
 use super::hot_layers::{self, SeriesLayers};
 use super::places::{AtPlaces, Places, lifts, place, total, turns};
 use super::state::{SeriesState, Tractions};
