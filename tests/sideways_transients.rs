@@ -45,7 +45,8 @@ fn beyond(lines: &Lines) -> f64 {
         let places: [f64; 12] = std::array::from_fn(|i| {
             pressure.centre + pressure.half_width * (std::f64::consts::PI * (i + 1) as f64 / 13.0).cos()
         });
-        let (p, q, r) = (pressure.density(&places), state.tractions.shear(&places), state.tractions.lateral.density(&places));
+        let (p, q, r) =
+            (pressure.density(&places), state.tractions.shear(&places), state.tractions.lateral.density(&places));
         (0..12).map(|i| (q[i].hypot(r[i]) - mu * p[i]) / (mu * pressure.terms[0].max(1.0))).fold(0.0, f64::max)
     };
     lines.iter().map(of).fold(0.0, f64::max)
@@ -54,7 +55,8 @@ fn beyond(lines: &Lines) -> f64 {
 /// The next step of a random transient.
 fn next(random: &mut Random, spaces: &HalfSpaces, before: Step) -> Step {
     let half = spaces.hertz.under(LOAD).a;
-    let mut step = Step { load: LOAD * random.between(0.7, 1.3), dt: half / SPEED * random.logarithmic(0.01, 10.0), ..before };
+    let mut step =
+        Step { load: LOAD * random.between(0.7, 1.3), dt: half / SPEED * random.logarithmic(0.01, 10.0), ..before };
     match random.below(12) {
         0 => step.speeds = [0.0; 3],
         1 => step.speeds = [SPEED, 0.0, step.speeds[2]],
@@ -80,7 +82,7 @@ struct Count {
     newton: usize,
     most: usize,
     beyond: f64,
-    least_work: f64,
+    least_power: f64,
 }
 
 fn transients(count: u64, lines: usize) -> Count {
@@ -96,24 +98,36 @@ fn transients(count: u64, lines: usize) -> Count {
                 seen.failures += 1;
                 break;
             };
-            let scale = FRICTION * LOAD * SPEED * step.dt;
-            let work = spaces.sum(step.load.max(1.0), &found, |line| line.traction.friction.work) / scale;
+            let power = spaces.sum(step.load.max(1.0), &found, |line| line.traction.friction.power);
             (seen.steps, seen.newton) = (seen.steps + 1, seen.newton + scratch.newton_steps);
             seen.most = seen.most.max(scratch.newton_steps);
-            (seen.beyond, seen.least_work) = (seen.beyond.max(beyond(&found)), seen.least_work.min(work));
+            (seen.beyond, seen.least_power) =
+                (seen.beyond.max(beyond(&found)), seen.least_power.min(power / (FRICTION * LOAD * SPEED * SATURATION)));
             state = found;
         }
     }
     seen
 }
 
+/// In steps much shorter than the patch the power of friction, taken between the places where friction acts, may be less
+/// than nothing.
+fn check(count: u64, lines: usize) {
+    let seen = transients(count, lines);
+    println!("{lines} lines: {seen:?}, {:.2} a step", seen.newton as f64 / seen.steps as f64);
+    assert!(seen.failures == 0 && seen.beyond < 1e-9);
+}
+
 #[test]
-fn random_transients_are_solved_within_the_cone_and_friction_takes_energy() {
-    let count = std::env::var("TRANSIENTS").map_or(100, |count| count.parse().unwrap());
-    for lines in [5, 7] {
-        let seen = transients(count, lines);
-        println!("{lines} lines: {seen:?}, {:.2} a step", seen.newton as f64 / seen.steps as f64);
-    }
+fn random_transients_are_solved_within_the_cone_and_cost_some_steps() {
+    check(60, 5);
+    check(20, 7);
+}
+
+/// The same in large number: minutes of CPU.
+#[test]
+#[ignore]
+fn ten_thousand_random_transients_are_solved() {
+    check(10_000, 5);
 }
 
 /// Forces along and across and spin moment over friction times load, times a metre.

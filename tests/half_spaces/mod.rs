@@ -14,8 +14,8 @@ use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::line::kernel::logarithms;
 use wheelrail::contact::series::SeriesSolver;
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactScratch, ContactSolver, ContactState, Friction, LineLayout, PatchLayout, PatchMaterial, Ports,
-    RigidMotion, Spin,
+    AxisDrive, ContactError, ContactScratch, ContactSolver, ContactState, Friction, LineLayout, PatchLayout,
+    PatchMaterial, Ports, RigidMotion, Spin,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::patch::Hertz;

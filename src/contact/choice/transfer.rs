@@ -168,7 +168,13 @@ pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &Contac
             if share > 0.0 {
                 (stick.half_width, stick.centre) = (share * half_width, centre + side * (1.0 - share) * half_width);
             }
-            Tractions { pressure, slide: direction * traction.friction.coefficient, stick, directions: None, lateral: Arch::default() }
+            Tractions {
+                pressure,
+                slide: direction * traction.friction.coefficient,
+                stick,
+                directions: None,
+                lateral: Arch::default(),
+            }
         }
         None => on_points(constants, grid, from, state, pressure),
     };

@@ -40,9 +40,8 @@ impl SeriesLine<'_> {
         let shear = if sheared { self.tractions.lateral } else { Arch::default() };
         let (cauchy, speed) = (shear.cauchy(x), self.rigid.travel + self.rim_velocity());
         let by_lines = values(&self.across.field.slip(self.slip_of_field()), x, self.half_length);
-        let mut slip: [f64; N] = std::array::from_fn(|i| {
-            self.rigid.lateral + spin * x[i] + speed * kernel.factor * cauchy[i] + by_lines[i]
-        });
+        let mut slip: [f64; N] =
+            std::array::from_fn(|i| self.rigid.lateral + spin * x[i] + speed * kernel.factor * cauchy[i] + by_lines[i]);
         if !time.is_stationary() {
             let (own, total) = (shear.logarithm(x), kernel.reach * shear.total());
             let [last, before] = self.before.past.each_ref().map(|past| match past {

@@ -17,15 +17,24 @@ use crate::contact::flexibility::polynomial;
 const MOST: usize = 40;
 /// Violation of friction that ends Newton's method \[1], and the share of the last change of the pressure that does.
 const TOLERANCE: f64 = 1e-12;
-const SHARE: f64 = 1e-3;
+const ROUGHEST: f64 = 1e-2;
+const SHARE: f64 = 0.03;
 /// Steps of Newton's method that are tried whole, and with a search along each.
 const WHOLE: usize = 12;
-const SEARCHED: usize = 60;
+const SEARCHED: usize = 30;
 /// Share of the promised fall of the violations that a step has to keep, and the shortest step \[1].
 const KEPT: f64 = 0.1;
-/// Violation of friction that ends searches on the way \[1], and parts of a path.
-const ROUGH: f64 = 1e-6;
-const MOST_PARTS: usize = 200;
+/// Violation of friction that ends searches on the way \[1].
+const ROUGH: f64 = 1e-4;
+/// Rounds of a search that draws the shear to the one before, and how strongly it begins to \[1].
+const ROUNDS: usize = 16;
+const DRAG: f64 = 1.0;
+/// Share of the correction below which a search does without \[1].
+const LEAST_SHARE: f64 = 0.3;
+/// Violations of friction that end a search where whole steps, and where all else has failed \[1].
+const UNSEEN: [f64; 2] = [1e-5, 5e-3];
+/// Relative difference of violations that repeat themselves \[1].
+const REPEATED: f64 = 1e-6;
 const SHORTEST: f64 = 0.01;
 
 /// Finds tractions and motions of lines that slip along and across.
@@ -33,10 +42,12 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let mut search = ConeSearch::new(contact);
     search.write(contact);
     let (mut normal, mut settling) = (contact.press()?, Settling::new(contact));
+    let mut moved = f64::INFINITY;
     for _ in 0..MOST {
         let before = Motions::of(contact);
-        let change = search.advance(contact, normal)?;
-        if settling.is_last(normal, before.moved(contact).max(change)) {
+        let change = search.advance(contact, [normal, moved])?;
+        moved = before.moved(contact);
+        if settling.is_last(normal, moved.max(change)) {
             search.finish(contact);
             return Ok(());
         }
@@ -50,7 +61,7 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
 enum Search {
     Whole,
     Along,
-    Path,
+    Drawn,
 }
 
 /// Shears, slips by all but the known ones, and motions.
@@ -59,12 +70,16 @@ type Begun = (Vec<Vectors>, Vec<[f64; SLIPS]>, PerAxis<f64>);
 /// Shear of all lines: without the correction of the slips, and with it.
 struct ConeSearch {
     uncorrected: Vec<Vectors>,
+    /// Motions without the correction less those with it.
+    uncorrected_motion: PerAxis<f64>,
     shears: Vec<Vectors>,
     states: Vec<[i8; COUNT]>,
     /// Radius of the discs at the peak of the pressure to which the shears belong \[Pa].
     most: Vec<f64>,
     /// True until a first correction has been found.
     first: bool,
+    /// Share of the correction: whole but where no shear is found with that.
+    share: f64,
 }
 
 /// The tangential problem of all lines under given pressures, and where the search is in it.
@@ -89,7 +104,15 @@ impl ConeSearch {
         };
         let shears: Vec<_> = contact.lines.iter().map(shear).collect();
         let most = contact.lines.iter().map(|line| line.before_friction * line.tractions.pressure.terms[0]);
-        Self { uncorrected: shears.clone(), shears, states: vec![[0; COUNT]; contact.lines.len()], most: most.collect(), first: true }
+        Self {
+            uncorrected: shears.clone(),
+            uncorrected_motion: PerAxis::default(),
+            shears,
+            states: vec![[0; COUNT]; contact.lines.len()],
+            most: most.collect(),
+            first: true,
+            share: 1.0,
+        }
     }
 
     /// Gives all lines the tractions of the search on their present patches.
@@ -102,9 +125,9 @@ impl ConeSearch {
         contact.displace();
     }
 
-    /// Finds shear and motions under the present pressures, the last change of which was `normal`; returns the largest
-    /// violation of friction before.
-    fn advance(&mut self, contact: &mut SeriesContact, normal: f64) -> Result<f64, ContactError> {
+    /// Finds shear and motions under the present pressures, the last change of which was `normal`, while motions have `moved`
+    /// in the last round; returns the largest violation of friction before, none where it has stayed unseen.
+    fn advance(&mut self, contact: &mut SeriesContact, [normal, moved]: [f64; 2]) -> Result<f64, ContactError> {
         let mut problems = contact.cone_problems();
         for (k, (line, problem)) in contact.lines.iter().zip(&problems).enumerate() {
             let (now, most) = (line.friction * line.tractions.pressure.terms[0], self.most[k]);
@@ -114,24 +137,38 @@ impl ConeSearch {
             }
             self.most[k] = now;
         }
-        let first = std::mem::replace(&mut self.first, false);
-        let tolerance = (SHARE * normal).clamp(TOLERANCE, 1e-3);
-        let mut newton = Newton::new(contact, &mut problems, &self.uncorrected);
+        let tolerance = (SHARE * normal).clamp(TOLERANCE, ROUGHEST);
+        let moved = moved > TOLERANCE && contact.free_axes().next().is_some();
+        let mut newton = Newton::new(contact, &mut problems);
+        newton.take(contact, &self.uncorrected, self.uncorrected_motion);
         let mut violation = newton.largest();
-        newton.run(contact, tolerance)?;
+        newton.run(contact, tolerance, moved)?;
         self.uncorrected.clone_from(&newton.shears);
-        newton.correct();
-        if !first {
-            newton.take(contact, &self.shears);
+        let (motion, found, corrections) = (newton.rigid, newton.now(), newton.corrections());
+        newton.correct(self.share, &corrections);
+        if !std::mem::replace(&mut self.first, false) {
+            newton.take(contact, &self.shears, PerAxis::default());
         }
         violation = violation.max(newton.largest());
-        newton.run(contact, tolerance)?;
+        while let Err(error) = newton.run(contact, tolerance, moved) {
+            if self.share == 0.0 {
+                return Err(error);
+            }
+            newton.correct(-self.share, &corrections);
+            self.share = if self.share > LEAST_SHARE { 0.5 * self.share } else { 0.0 };
+            newton.correct(self.share, &corrections);
+            newton.restart(&found);
+        }
+        self.uncorrected_motion = PerAxis::from_fn(|axis| motion[axis] - newton.rigid[axis]);
+        let left = newton.largest();
         self.shears = newton.shears;
         self.states = newton.verdicts.iter().map(Verdict::states).collect();
         let rigid = newton.rigid;
         contact.lines.iter_mut().for_each(|line| line.rigid = rigid);
         self.write(contact);
-        Ok(violation)
+        // What is left unseen stays from round to round.
+        let stays = left > tolerance && violation <= UNSEEN[1];
+        Ok(if stays { 0.0 } else { violation })
     }
 
     /// Takes the slips of the solution.
@@ -146,27 +183,31 @@ impl ConeSearch {
 }
 
 impl<'a> Newton<'a> {
-    fn new(contact: &mut SeriesContact, problems: &'a mut [ConeProblem], shears: &[Vectors]) -> Self {
+    fn new(contact: &SeriesContact, problems: &'a mut [ConeProblem]) -> Self {
         let rigid = contact.lines[0].rigid;
-        let mut newton = Self { problems, base: rigid, shears: vec![], slips: vec![], rigid, verdicts: vec![] };
-        newton.take(contact, shears);
-        newton
+        Self { problems, base: rigid, shears: vec![], slips: vec![], rigid, verdicts: vec![] }
     }
 
-    /// Goes on from given shears, with the motions of the known slip.
-    fn take(&mut self, contact: &mut SeriesContact, shears: &[Vectors]) {
+    /// Goes on from given shears, with motions that differ from those of the known slip by `motion`.
+    fn take(&mut self, contact: &mut SeriesContact, shears: &[Vectors], motion: PerAxis<f64>) {
         contact.lines.iter_mut().for_each(|line| line.rigid = self.base);
         let moments: Vec<_> = self.problems.iter().zip(shears).map(|(problem, shear)| problem.moments(shear)).collect();
+        let contact = &*contact;
         let slips = |at: usize| {
             let mut sum = [0.0; SLIPS];
             for (by, moments) in moments.iter().enumerate() {
                 let slips = polynomial(&ConeAnswer::between(contact, [at, by]), moments);
                 sum.iter_mut().zip(slips).for_each(|(sum, slip)| *sum += slip);
             }
+            for axis in contact.free_axes() {
+                let slips = ConeAnswer::by_motion(&contact.lines[at], axis);
+                sum.iter_mut().zip(slips).for_each(|(sum, slip)| *sum += motion[axis] * slip);
+            }
             sum
         };
         self.slips = (0..self.problems.len()).map(slips).collect();
-        (self.shears, self.rigid) = (shears.to_vec(), self.base);
+        self.shears = shears.to_vec();
+        self.rigid = PerAxis::from_fn(|axis| self.base[axis] + motion[axis]);
         self.verdicts = self.judge(&self.shears, &self.slips);
     }
 
@@ -180,21 +221,32 @@ impl<'a> Newton<'a> {
     }
 
     /// Goes on until friction is violated by no more than the `tolerance`: by whole steps, or else with a search along
-    /// steps, or on a path of the data from the present shear on.
-    fn run(&mut self, contact: &mut SeriesContact, tolerance: f64) -> Result<(), ContactError> {
-        let begun = (self.shears.clone(), self.slips.clone(), self.rigid);
-        for search in [Search::Whole, Search::Along, Search::Path] {
+    /// steps, or drawn to the shear before in every round. Where a single point neither sticks nor slips, next to
+    /// the pole of a spin, what is left of it has no more to tell; so a violation that nobody sees is a solution, too.
+    fn run(&mut self, contact: &mut SeriesContact, tolerance: f64, moved: bool) -> Result<(), ContactError> {
+        let begun = self.now();
+        let mut best = (self.largest(), begun.clone());
+        for (search, unseen) in [(Search::Whole, UNSEEN[0]), (Search::Along, UNSEEN[1]), (Search::Drawn, UNSEEN[1])] {
             let found = match search {
-                Search::Whole => self.steps(contact, tolerance, WHOLE, false),
-                Search::Along => self.steps(contact, tolerance, SEARCHED, true),
-                Search::Path => self.follow(contact) && self.steps(contact, tolerance, SEARCHED, true),
+                Search::Whole => self.steps(contact, tolerance, (WHOLE, false, moved), &mut best),
+                Search::Along => self.steps(contact, tolerance, (SEARCHED, true, moved), &mut best),
+                Search::Drawn => self.approach(contact, tolerance, &mut best),
             };
             if found {
+                return Ok(());
+            }
+            if best.0 <= unseen {
+                self.restart(&best.1);
                 return Ok(());
             }
             self.restart(&begun);
         }
         Err(ContactError::Unsuited { reason: "the shear of points along and across is not found" })
+    }
+
+    /// Present shears, slips and motions.
+    fn now(&self) -> Begun {
+        (self.shears.clone(), self.slips.clone(), self.rigid)
     }
 
     /// Begins anew with shears, slips and motions.
@@ -203,60 +255,66 @@ impl<'a> Newton<'a> {
         self.verdicts = self.judge(&self.shears, &self.slips);
     }
 
-    /// Corrects the slips, once its shear is found, by those in the places of the shear.
-    fn correct(&mut self) {
-        for ((problem, shear), slips) in self.problems.iter_mut().zip(&self.shears).zip(&self.slips) {
-            let correction = problem.correction(shear, slips);
-            problem.add(1.0, &correction);
-        }
+    /// Corrections of the slips by those in the places of the present shear.
+    fn corrections(&self) -> Vec<Vectors> {
+        let all = self.problems.iter().zip(&self.shears).zip(&self.slips);
+        all.map(|((problem, shear), slips)| problem.correction(shear, slips)).collect()
+    }
+
+    /// Corrects the known slips by a share.
+    fn correct(&mut self, share: f64, corrections: &[Vectors]) {
+        self.problems.iter_mut().zip(corrections).for_each(|(problem, slips)| problem.add(share, slips));
         self.verdicts = self.judge(&self.shears, &self.slips);
     }
 
-    /// Follows the solutions of slips that change from those whose solution is the present shear to the known ones; true if
-    /// it arrives.
-    fn follow(&mut self, contact: &mut SeriesContact) -> bool {
-        let missing = |((problem, shear), slips): ((&ConeProblem, &Vectors), &[f64; SLIPS])| problem.missing(shear, slips);
-        let missing: Vec<_> = self.problems.iter().zip(&self.shears).zip(&self.slips).map(missing).collect();
-        let add = |newton: &mut Self, share: f64| {
-            newton.problems.iter_mut().zip(&missing).for_each(|(problem, slips)| problem.add(share, slips));
+    /// Draws the shear to that before, round by round; true if whole steps find the solution from one of these shears on.
+    fn approach(&mut self, contact: &mut SeriesContact, tolerance: f64, best: &mut (f64, Begun)) -> bool {
+        let draw = |newton: &mut Self, drag: f64| {
+            newton.problems.iter_mut().zip(&newton.shears).for_each(|(problem, shear)| problem.draw(drag, shear));
+            newton.verdicts = newton.judge(&newton.shears, &newton.slips);
         };
-        add(self, 1.0);
-        let (mut left, mut part) = (1.0_f64, 0.25_f64);
-        for _ in 0..MOST_PARTS {
-            let begun = (self.shears.clone(), self.slips.clone(), self.rigid);
-            let next = (left - part).max(0.0);
-            add(self, next - left);
-            self.restart(&begun);
-            if self.steps(contact, ROUGH, WHOLE, false) {
-                (left, part) = (next, 1.7 * part);
-                if left == 0.0 {
-                    return true;
-                }
-            } else {
-                add(self, left - next);
+        let mut drag = DRAG;
+        for _ in 0..ROUNDS {
+            let begun = self.now();
+            draw(self, drag);
+            let drawn = self.steps(contact, ROUGH, (WHOLE, false, false), &mut (0.0, Begun::default()));
+            if !drawn {
                 self.restart(&begun);
-                part *= 0.4;
+                drag *= 8.0;
             }
+            draw(self, 0.0);
+            let begun = self.now();
+            if drawn && self.steps(contact, tolerance, (WHOLE, false, false), best) {
+                return true;
+            }
+            self.restart(&begun);
         }
-        add(self, -left);
         false
     }
 
-    /// True if at most `most` steps were enough.
-    fn steps(&mut self, contact: &mut SeriesContact, tolerance: f64, most: usize, search: bool) -> bool {
-        let mut moved = contact.free_axes().next().is_some();
-        for it in 0..most {
-            if std::env::var("DBG").is_ok() {
-                let sticks: Vec<usize> = self.verdicts.iter().map(|v| v.states().iter().filter(|s| **s == 0).count()).collect();
-                eprintln!("  {search} {it} largest {:.2e} norm {:.2e} stick {sticks:?}", self.largest(), self.verdicts.iter().map(|v| v.squares).sum::<f64>().sqrt());
-            }
-            if self.largest() <= tolerance && !moved {
+    /// True if at most `most` steps were enough, of which one is taken in any case if motions may have `moved`; the iterate
+    /// that violates friction least becomes the `best`.
+    fn steps(
+        &mut self,
+        contact: &mut SeriesContact,
+        tolerance: f64,
+        (most, search, mut moved): (usize, bool, bool),
+        best: &mut (f64, Begun),
+    ) -> bool {
+        let mut before = [f64::INFINITY; 2];
+        for _ in 0..most {
+            let largest = self.largest();
+            if largest <= tolerance && !moved {
                 return true;
             }
-            if self.step(contact, search).is_none() {
+            // Two states that ask for each other have the same violations again and again.
+            if (largest / before[0] - 1.0).abs() < REPEATED || self.step(contact, search).is_none() {
                 return false;
             }
-            moved = false;
+            (before, moved) = ([before[1], largest], false);
+            if self.largest() < best.0 {
+                *best = (self.largest(), self.now());
+            }
         }
         self.largest() <= tolerance
     }
@@ -279,7 +337,9 @@ impl<'a> Newton<'a> {
         loop {
             let mix = |old: f64, new: f64| old + part * (new - old);
             let mut tried = self.shears.clone();
-            for (old, new) in tried.as_flattened_mut().as_flattened_mut().iter_mut().zip(shears.as_flattened().as_flattened()) {
+            for (old, new) in
+                tried.as_flattened_mut().as_flattened_mut().iter_mut().zip(shears.as_flattened().as_flattened())
+            {
                 *old = mix(*old, *new);
             }
             let mut moved = self.slips.clone();

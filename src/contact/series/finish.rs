@@ -42,7 +42,13 @@ fn energy_across(line: &SeriesLine) -> f64 {
     }
     let (places, force) = line.slipping_across();
     let own = kernel.factor * (kernel.reach * shear.total().powi(2) - total(&force, &shear.logarithm(&places)));
-    own + line.across.powers.iter().zip(&line.across.field.displacement).map(|(moment, c)| 0.5 * moment * c).sum::<f64>()
+    own + line
+        .across
+        .powers
+        .iter()
+        .zip(&line.across.field.displacement)
+        .map(|(moment, c)| 0.5 * moment * c)
+        .sum::<f64>()
 }
 
 /// Power of pressure on the slope of the rail that slides past it [W/m].

@@ -1,8 +1,8 @@
 //! One line on its way to the solution on a single patch.
 
+use super::across::Across;
 use super::chebyshev::Arch;
 use super::constants::Constants;
-use super::across::Across;
 use super::hot_layers::{self, SeriesLayers};
 use super::places::{AtPlaces, Places, lifts, place, total, turns};
 use super::state::{SeriesState, Tractions};
@@ -134,7 +134,12 @@ impl<'a> SeriesLine<'a> {
 
     /// Side from which the material arrives: 1 from `+x`.
     pub fn upstream(&self) -> f64 {
-        if self.rigid.travel + self.rim_velocity() >= 0.0 { 1.0 } else { -1.0 }
+        // Points must not change sides with the rim of a wheel that stands.
+        let rim = match self.is_sideways() {
+            true => self.problem.line.radius() * self.rigid.rotation,
+            false => self.rim_velocity(),
+        };
+        if self.rigid.travel + rim >= 0.0 { 1.0 } else { -1.0 }
     }
 
     /// Sum of the speeds of both surfaces [m/s].
