@@ -123,3 +123,8 @@ def test_an_angle_in_degrees_and_a_velocity_in_millimetres_are_told(start):
     with pytest.warns(UserWarning, match=r"drive.lateral_velocity = 40 .*mm/s"):
         wheel.set({"drive.lateral_velocity": 40.0})
         wheel.step(1e-6)
+
+
+def test_a_mass_that_moves_sideways_without_lateral_forces_is_told(start):
+    with pytest.warns(UserWarning, match=r"wheel.lateral_mass has no effect without lateral forces; set contact.lateral = true"):
+        start({"wheel.lateral_mass": 500.0})

@@ -259,11 +259,8 @@ fn solve_and_commit(
         driving.lateral = aside;
     }
     next.hub = plan.hub(model, demand, driving, &next.motion);
-    next.elevation = demand.target.elevation;
-    next.clock.time = state.clock.time + dt;
-    next.clock.pending = 0.0;
-    next.available_friction = demand.target.friction;
-    next.clock.last_step = *dt;
+    (next.elevation, next.available_friction) = (demand.target.elevation, demand.target.friction);
+    (next.clock.time, next.clock.pending, next.clock.last_step) = (state.clock.time + dt, 0.0, *dt);
     flattening::indent(model, state, place, next);
     wear::wear(model, state, *dt, next);
     next.clock.restarted = plan.restarted;

@@ -52,6 +52,7 @@ impl Notices {
             of_load(settings, config),
             of_width(settings, config),
             of_idle_rows(settings, config),
+            of_idle_sideways(settings, config),
             of_rows_load(settings, config),
         ];
         texts.into_iter().flatten().for_each(|text| life.log().report(Status::Warning, &text));
@@ -237,6 +238,19 @@ fn of_idle_rows(settings: &Settings, config: &Config) -> Option<String> {
     let idle = [("contact.rows", !contact.rows.is_empty()), ("contact.rows_load", contact.rows_load != base.rows_load)];
     let (name, _) = idle.into_iter().find(|(name, says)| *says && is_set(settings, name))?;
     Some(format!("{name} has no effect: contact.shape is another; set contact.shape = rows"))
+}
+
+/// Warning of what moves or yields sideways under a contact that has no lateral direction.
+fn of_idle_sideways(settings: &Settings, config: &Config) -> Option<String> {
+    let (wheel, rail) = (&config.wheel, &config.rail);
+    let values = [
+        ("wheel.lateral_mass", wheel.lateral_mass),
+        ("wheel.lateral_stiffness", wheel.lateral_stiffness),
+        ("rail.lateral_stiffness", rail.lateral_stiffness),
+    ];
+    let (name, _) = values.into_iter().find(|(name, value)| *value > 0.0 && is_set(settings, name))?;
+    (!config.contact.lateral)
+        .then(|| format!("{name} has no effect without lateral forces; set contact.lateral = true"))
 }
 
 /// Warning of rows whose load is not said, under a nominal load for which they may be meant.
