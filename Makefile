@@ -19,8 +19,8 @@
 # make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
 # make suspension  held, ramped, velocity and iterative coupling through a stiff suspension: table and plot in results/
 # make creep-curve creep curve of a locomotive to 21 % against its measurement: table and plot in results/
-# make eight-wheels  eight wheels through fmpy, one after the other and on threads: simulated over wall time;
-#                BEFORE=older.fmu runs beside it in turn
+# make eight-wheels  eight wheels through fmpy, held, varying and in a slide, on one line and on seven, one after the other and on
+#                threads: simulated over wall time; BEFORE=older.fmu runs beside it in turn
 # make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
 # make own-vehicle a wagon of one's own on eight wheels, one axle of which seizes: table and plot in results/
 # make surfaces  waves, holes, rough rails, flats and the contact filter: table and plot in results/
@@ -32,6 +32,7 @@
 #                with FULL=1 on finer meshes, too, and with 16 points or more a curve; ACCEPT=1 keeps the values that it found
 # make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
 # make bench-ordinary BEFORE=path/libwheelrail.so  steps in ordinary driving, beside an older library in turn; ARGS=--list
+# make instructions  machine instructions of a step, by valgrind, beside those that are kept; says where 5 % have been added
 # make endurance a million steps of mixed driving: failures, memory, energy audit
 # make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
 # make random-temperatures 500 random parameter sets: temperatures within their bounds or refused by name
@@ -89,7 +90,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test test-tools test-rust test-fmpy quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary endurance random-parameters random-temperatures leak-check house docs site describe clean
+.PHONY: demo help test test-tools test-rust test-fmpy quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -207,6 +208,9 @@ bench:
 
 bench-ordinary:
 	$(CARGO) bench --locked --bench ordinary -- $(if $(BEFORE),--before $(abspath $(BEFORE))) $(ARGS)
+
+instructions: $(BUILT)
+	$(PYTHON) tools/instructions.py --binary $(BINARY) $(ARGS)
 
 endurance:
 	$(CARGO) run --release --locked --example ex03_endurance -- $(ARGS)

@@ -7,10 +7,12 @@
 use nalgebra::DMatrix;
 use serde_json::{Map, Value, json};
 use std::hint::black_box;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 use wheelrail::config::Config;
-use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
+use wheelrail::fmi::presets;
+use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation, Translation};
 use wheelrail::wheels::advance_all;
 
 /// Where the history of runs is kept.
@@ -115,18 +117,61 @@ fn steps(table: &mut Table, store: &BasisStore) {
     }
 }
 
-/// Wheels one after the other and on all cores. Their moments differ: equal ones would share what belongs to their
-/// speeds.
+/// Drives of eight wheels: moments that are held, that vary by ±30 % in 40 ms, and brakes that lock the wheels at a speed
+/// that is held.
+const DRIVES: [&str; 3] = ["held", "varying", "slide"];
+/// Torque that locks a wheel on a dry rail \[N m], and steps before what is measured and in it.
+const LOCKING: f64 = 40e3;
+const SETTLING: usize = 300;
+const MEASURED: usize = 200;
+
+/// Sets what a drive demands of a wheel in a step. Moments differ: equal wheels would share what belongs to their speeds.
+fn demand(drive: &str, wheel: usize, step: usize, inputs: &mut Inputs) {
+    let share = |steps: usize| (step as f64 / steps as f64 + wheel as f64 / WHEELS as f64).rem_euclid(1.0);
+    let change = if drive == "varying" { 0.3 * (1.0 - 4.0 * (share(40) - 0.5).abs()) } else { 0.0 };
+    match drive {
+        "slide" => inputs.drive.torque = LOCKING * (step as f64 / 100.0).min(1.0),
+        _ => inputs.drive.moment = (MOMENT + 100.0 * wheel as f64) * (1.0 + change),
+    }
+}
+
+/// Simulated over wall time of eight wheels of a model, one after the other or on all cores.
+fn speed_of_eight(model: &Arc<Model>, drive: &str, together: bool) -> f64 {
+    let mut start = Inputs::rolling(model.config());
+    if drive == "slide" {
+        start.translation = Translation::Velocity;
+    }
+    let wheel = |_| Simulation::new(model.clone(), &start).expect("stationary state");
+    let mut wheels: Vec<Simulation> = (0..WHEELS).map(wheel).collect();
+    let mut inputs = vec![start; WHEELS];
+    let mut measured = 0.0;
+    for step in 0..SETTLING + MEASURED {
+        inputs.iter_mut().enumerate().for_each(|(k, inputs)| demand(drive, k, step, inputs));
+        let start = Instant::now();
+        if together {
+            assert!(advance_all(&mut wheels, &inputs, STEP).iter().all(Result::is_ok));
+        } else {
+            wheels.iter_mut().zip(&inputs).for_each(|(wheel, inputs)| wheel.advance(inputs, STEP).expect("step"));
+        }
+        measured += if step < SETTLING { 0.0 } else { start.elapsed().as_secs_f64() };
+    }
+    MEASURED as f64 * STEP / measured
+}
+
+/// Eight wheels on one line of contact and on seven, one after the other and on all cores.
 fn wheels(table: &mut Table, store: &BasisStore) {
-    for (name, heat) in [("coupled", true), ("without heat", false)] {
-        let model = model(20, heat, store);
-        let (mut wheels, inputs): (Vec<_>, Vec<_>) =
-            (0..WHEELS).map(|k| braking(&model, MOMENT + 100.0 * k as f64)).unzip();
-        let alone =
-            fastest(|| wheels.iter_mut().zip(&inputs).for_each(|(wheel, inputs)| wheel.advance(inputs, STEP).unwrap()));
-        let together = fastest(|| assert!(advance_all(&mut wheels, &inputs, STEP).iter().all(Result::is_ok)));
-        table.number(&format!("{WHEELS} wheels {name}, one core: simulated / wall time"), STEP / alone, "");
-        table.number(&format!("{WHEELS} wheels {name}, all cores: simulated / wall time"), STEP / together, "");
+    for (lines, preset) in [("one line", "railway"), ("seven lines", "railway_ellipse")] {
+        for (heat, name) in [(true, "with heat"), (false, "without heat")] {
+            for drive in DRIVES {
+                let mut config = presets::load(Some(Path::new("resources")), preset).expect("preset");
+                config.thermal.enabled = heat;
+                let model = Model::prepare(config, store, &mut |_, _| {}).expect("model");
+                for (cores, together) in [("one core", false), ("all cores", true)] {
+                    let name = format!("{WHEELS} wheels, {lines}, {name}, {drive}, {cores}: simulated / wall");
+                    table.number(&name, speed_of_eight(&model, drive, together), "");
+                }
+            }
+        }
     }
 }
 

@@ -7,8 +7,10 @@ A master in Python steps wheels at the same time with nothing but threads: while
 the lock of the interpreter. Every instance has its own state; equal ones share their model. Wheels whose brakes differ take steps of
 different length: a `Team` gives the next wheel to whichever thread is free.
 
-The moments of the brakes vary by ±30 % in 40 ms, or as `--change` and `--period` say, those of each wheel at another
-time. An older FMU runs beside the present one, some steps in turn, so that both see the same load of the machine.
+Wheels with one line of contact and on an elliptical patch of seven lines (or with the preset that `--set preset=` names)
+brake at half the adhesion limit, with moments that are held and that vary by ±30 % in 40 ms, or as `--change` and `--period`
+say, those of each wheel at another time; and they slide, locked by their brakes, at a speed that is held. An older FMU runs
+beside the present one, some steps in turn, so that both see the same load of the machine.
 """
 
 import argparse
@@ -19,25 +21,31 @@ from wheelrail import Fmu, Refused, Team, Wheel
 
 WHEELS, STEP = 8, 1e-3  # number, s
 BATCH = 10  # steps that are timed together, some 20 ms as in the benchmark of the Rust library
-SETTLING = 0.1  # s
-START = {"initial.velocity": 27.8}
+SPEED = 27.8  # m/s
+PRESETS = ("railway", "railway_ellipse")
+LOCKING = 40e3  # torque of a brake that locks a wheel on a dry rail, N m
+DRIVES = ("held", "varying", "slide")
 
 
 class Brakes:
-    """Brakes whose moments vary by the share `change` in the time `period` (s)."""
+    """Brakes of one of `DRIVES`, whose moments vary by the share `change` in the time `period` (s) if they do."""
 
-    def __init__(self, change, period):
-        self.change, self.period = change, period
+    def __init__(self, drive, change, period):
+        self.drive, self.change, self.period = drive, change if drive == "varying" else 0.0, period
+        self.start = {"initial.velocity": SPEED} | ({"control.translation": "velocity"} if drive == "slide" else {})
+        self.settling = 0.3 if drive == "slide" else 0.1  # until what is measured begins, s
 
-    def moment(self, wheel, time):
-        """Moment on a wheel (N m): half of the adhesion limit, and a triangle that each wheel has at another time."""
+    def inputs(self, wheel, time):
+        """Inputs of a wheel: half of the adhesion limit, and a triangle that each wheel has at another time; or a brake that locks it."""
+        if self.drive == "slide":
+            return {"brake.torque": LOCKING * min(1.0, time / 0.1)}
         triangle = 1.0 - 4.0 * abs((time / self.period + wheel / WHEELS) % 1.0 - 0.5)
-        return (-7000.0 + 100.0 * wheel) * (1.0 + self.change * triangle)
+        return {"drive.moment": (-7000.0 + 100.0 * wheel) * (1.0 + self.change * triangle)}
 
     def step(self, numbered):
         """One step of a wheel that comes with its number."""
         k, wheel = numbered
-        wheel.set({"drive.moment": self.moment(k, wheel.time)})
+        wheel.set(self.inputs(k, wheel.time))
         wheel.step(STEP)
 
 
@@ -63,11 +71,11 @@ def measure(fmus, settings, steps, threads, brakes):
     """By FMU: speeds and the last forces, on so many threads."""
     with ExitStack() as stack:
         def fleet(fmu, own):
-            return [(k, stack.enter_context(Wheel(fmu, own, {"drive.moment": brakes.moment(k, 0.0)}))) for k in range(WHEELS)]
+            return [(k, stack.enter_context(Wheel(fmu, own, brakes.inputs(k, 0.0)))) for k in range(WHEELS)]
 
-        fleets = [fleet(fmu, START | settings | own) for fmu, own in fmus]
+        fleets = [fleet(fmu, brakes.start | settings | own) for fmu, own in fmus]
         team = stack.enter_context(Team(threads))
-        run(fleets, round(SETTLING / STEP), team, brakes)
+        run(fleets, round(brakes.settling / STEP), team, brakes)
         seconds = run(fleets, steps, team, brakes)
         return [(speeds(times), [wheel.get("contact.force_x") for _, wheel in fleet]) for times, fleet in zip(seconds, fleets)]
 
@@ -91,8 +99,9 @@ def arguments():
     parser.add_argument("--before", metavar="FMU", help="an older FMU that runs in turn")
     parser.add_argument("--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help="a parameter of --fmu only")
     parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--seconds", type=float, default=5.0, help=f"simulated time, at least {BATCH * STEP:g}")
-    parser.add_argument("--change", type=float, default=0.3, help="share by which moments vary; 0: they are held")
+    parser.add_argument("--seconds", type=float, default=2.0, help=f"simulated time of each row, at least {BATCH * STEP:g}")
+    parser.add_argument("--drives", nargs="+", choices=DRIVES, default=DRIVES, help="what the wheels do")
+    parser.add_argument("--change", type=float, default=0.3, help="share by which moments vary")
     parser.add_argument("--period", type=float, default=0.04, help="time in which they do (s)")
     options = parser.parse_args()
     if not options.seconds >= BATCH * STEP:
@@ -106,22 +115,31 @@ def arguments():
     return options
 
 
+def rows(options):
+    """Name, parameters and brakes of every row of the table."""
+    chosen = dict(options.set).get("preset")
+    for preset in (chosen,) if chosen else PRESETS:
+        for heat in (True, False):
+            for drive in options.drives:
+                name = f"{preset}, {'with' if heat else 'without'} heat, {drive}"
+                yield name, {"preset": preset, "thermal.enabled": heat}, Brakes(drive, options.change, options.period)
+
+
 def main():
     options = arguments()
-    brakes = Brakes(options.change, options.period)
     steps, labels = round(options.seconds / STEP), ["before", "after"] if options.before else [""]
     print(f"{WHEELS} wheels, {options.seconds:g} s in steps of {STEP:g} s: simulated over wall time (of the fastest {BATCH} steps)")
-    print(f"{'':22}{'one thread':>16}{'its CPU time':>16}{f'{options.threads} threads':>16}")
+    print(f"{'':52}{'one thread':>16}{'its CPU time':>16}{f'{options.threads} threads':>16}")
     with ExitStack() as stack:
         older = [(stack.enter_context(Fmu(options.before)), {})] if options.before else []
         fmus = older + [(stack.enter_context(Fmu(options.fmu)), dict(options.set))]
-        for name, heat in (("with heat", True), ("without heat", False)):
-            alone, together = (measure(fmus, {"thermal.enabled": heat}, steps, n, brakes) for n in (1, options.threads))
+        for name, settings, brakes in rows(options):
+            alone, together = (measure(fmus, settings, steps, n, brakes) for n in (1, options.threads))
             for label, (one, forces), (many, same) in zip(labels, alone, together):
                 if forces != same:
                     raise SystemExit(f"{name}: threads changed the forces: {forces} and {same} N")
                 columns = f"{one[0]:.2f} ({one[1]:.2f})", f"{one[2]:.2f}", f"{many[0]:.2f} ({many[1]:.2f})"
-                print(f"{name:14}{label:8}" + "".join(f"{column:>16}" for column in columns), flush=True)
+                print(f"{name:44}{label:8}" + "".join(f"{column:>16}" for column in columns), flush=True)
 
 
 if __name__ == "__main__":

@@ -41,12 +41,12 @@ CHECKOUT = (
     Recipe(
         'make flat ARGS="--once --slide 0.1 --roll 0.2" OUT={out}', ("make flat", 'make flat ARGS="--once --slide 0.1 --roll 0.2"'), "written"
     ),
-    short("eight-wheels", "--seconds 0.1", "threads"),
+    short("eight-wheels", "--seconds 0.1 --drives held", "threads"),
     Recipe(
-        'make eight-wheels ARGS="--seconds 0.1 --set preset=railway_ellipse"',
+        'make eight-wheels ARGS="--seconds 0.1 --drives slide --set preset=railway_ellipse"',
         ('make eight-wheels ARGS="--set preset=railway_ellipse"',), "threads",
     ),
-    Recipe('make eight-wheels BEFORE={fmu} ARGS="--seconds 0.1"', ("make eight-wheels BEFORE=older.fmu",), "threads"),
+    Recipe('make eight-wheels BEFORE={fmu} ARGS="--seconds 0.1 --drives varying"', ("make eight-wheels BEFORE=older.fmu",), "threads"),
     Recipe(
         "make train SCENARIO={small} OUT={out} FORCE=1",
         ("make train", "make train SCENARIO=my/scenario.json", "make train SCENARIO=my/scenario.json FORCE=1"), "stopping distance",
@@ -153,6 +153,7 @@ NOT_RUN = {
     ),
     "this test runs within it, or it compiles everything once more": (
         ".ci/run", "make test", "make test-fmpy", "make test-times", "make quick", "make loop TEST=brake", "make loop TEST=heat_closed_forms",
+        "make instructions", "tools/instructions.py", "tools/instructions.py --accept", "cargo build --no-default-features --lib",
         "make loop TEST=lib", "make loop TEST=lib ARGS=profile", "make loop TEST=lib ARGS=every_output", "make docs", "make clean", "make fmu PROFILES=no",
         "cargo build --release", "cargo check --release --lib", "cargo loop --test brake -- name", "cargo test",
         "cargo test --release --lib ROOM:: -- --nocapture", "cargo test --release --test NAME -- --nocapture",

@@ -14,6 +14,10 @@ const LARGEST_RATIO: f64 = 4.0;
 const RESOLVED: f64 = 2e-3;
 /// Most internal steps for it in a communication step \[1]; a track with fewer samples is not smooth to the wheel.
 const MOST_PIECES: u64 = 10;
+/// Change of the force of the wheel's inertia within an internal step, over the load, below which the track is followed
+/// without shorter steps \[1], and time in which the jerk of the track is forgotten \[s]: a quarter of a wave of 10 Hz.
+const SLIGHT: f64 = 5e-4;
+const FORGOTTEN: f64 = 0.025;
 
 /// Rates of the height at the last communication point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -28,6 +32,8 @@ pub struct Rise {
     bend: f64,
     /// Error of the rate at its end [m/s], from the change of that; 0 where the rate was given.
     pub error: f64,
+    /// Largest jerk of late [m/s³].
+    jerk: f64,
 }
 
 /// Share of the change of the last part of a rate that its error is \[1]: the third term of a series beside the second.
@@ -59,7 +65,9 @@ impl Rise {
             (false, false) => (mean, bend.abs()),
         };
         let begin = if carried { self.rate } else { mean };
-        HeightCourse { heights, rates: [begin, rate], length, rise: Rise { rate, mean, length, bend, error } }
+        let jerk = 6.0 * (begin + rate - 2.0 * mean).abs() / (length * length);
+        let jerk = jerk.max(self.jerk * libm::exp(-length / FORGOTTEN));
+        HeightCourse { heights, rates: [begin, rate], length, rise: Rise { rate, mean, length, bend, error, jerk } }
     }
 }
 
@@ -81,10 +89,16 @@ impl HeightCourse {
         self.rise
     }
 
-    /// Internal steps that resolve it, no more than [`MOST_PIECES`]: one where it is straight.
-    pub fn pieces(&self) -> u64 {
-        let straight = self.rates == [self.rise.mean; 2];
-        if straight { 1 } else { ((self.length / RESOLVED - 1e-9).ceil() as u64).clamp(1, MOST_PIECES) }
+    /// Internal steps that resolve it for a wheel of the `inertia` \[kg] under a `load` \[N], no more than
+    /// [`MOST_PIECES`]: as many as keep changes of its force [slight](SLIGHT), or those of [`RESOLVED`] where these are
+    /// fewer.
+    pub fn pieces(&self, inertia: f64, load: f64) -> u64 {
+        let change = inertia * self.rise.jerk * self.length;
+        if change == 0.0 {
+            return 1;
+        }
+        let pieces = (change / (SLIGHT * load.max(0.0))).min(self.length / RESOLVED);
+        ((pieces - 1e-9).ceil() as u64).clamp(1, MOST_PIECES)
     }
 }
 
@@ -148,6 +162,27 @@ mod tests {
         println!("{rates:?}");
         assert!((rates[0] - rates[1]).abs() < 1e-5 && (rates[2] - 0.2).abs() < 1e-5);
         assert_eq!([first.at(0.0), first.at(1.0), second.at(0.0), second.at(1.0)], [0.0, 1e-3, 1e-3, 1.5e-3]);
+    }
+
+    #[test]
+    fn a_smooth_track_takes_one_internal_step_and_a_rough_one_those_of_two_milliseconds() {
+        let h = 0.01;
+        let pieces = |frequency: f64, amplitude: f64| {
+            let height = |t: f64| amplitude * (1.0 - (frequency * t).cos());
+            let mut rise = Rise::default();
+            let most = (0..50).map(|k| {
+                let [from, to] = [k, k + 1].map(|k| f64::from(k) * h);
+                let course = rise.course([height(from), height(to)], amplitude * frequency * (frequency * to).sin(), h);
+                rise = course.rise();
+                course.pieces(360.0, 1e5)
+            });
+            most.max().unwrap()
+        };
+        let found = [pieces(17.0, 2.5e-3), pieces(126.0, 1e-4), pieces(0.0, 1.0)];
+        println!("2.7 Hz, 2.5 mm; 20 Hz, 0.1 mm; level: {found:?}");
+        assert_eq!(found, [1, 5, 1]);
+        let still = Rise::default().course([0.0; 2], 0.0, h);
+        assert_eq!([still.pieces(360.0, 1e5), still.pieces(360.0, 0.0)], [1, 1]);
     }
 
     #[test]

@@ -200,7 +200,8 @@ fn resolving_step(model: &RollingModel, state: &State, h: f64) -> f64 {
 fn fewest_pieces(model: &RollingModel, tuning: &Tuning, state: &State, ramp: &Ramp) -> Result<u64, StepError> {
     let h = ramp.h;
     let max_step = if tuning.max_step > 0.0 { tuning.max_step } else { resolving_step(model, state, h) };
-    let pieces = ((h / max_step - 1e-9).ceil().max(1.0) as u64).max(ramp.elevation.pieces());
+    let uneven = ramp.elevation.pieces(model.wheel.inertia.height, state.resultant().height);
+    let pieces = ((h / max_step - 1e-9).ceil().max(1.0) as u64).max(uneven);
     if pieces > MOST_PIECES {
         return Err(StepError::TooManySteps { step: h, max_step, pieces, most: MOST_PIECES });
     }
