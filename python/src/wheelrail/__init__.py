@@ -7,4 +7,4 @@ from .team import Team
 from .warn import WheelrailWarning
 
 __all__ = ["Fmu", "Refused", "Team", "Wheel", "WheelrailWarning", "celsius", "load", "save", "simulate", "table"]
-__version__ = "0.8.0"
+__version__ = "0.9.0"

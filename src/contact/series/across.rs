@@ -45,7 +45,7 @@ impl SeriesLine<'_> {
         if !time.is_stationary() {
             let (own, total) = (shear.logarithm(x), kernel.reach * shear.total());
             let [last, before] = self.before.past.each_ref().map(|past| match past {
-                Past::Patch(past) => past.across(x, line.share),
+                Past::Series(past) => past.across(x, line.share),
                 Past::Grid(..) => [0.0; N],
             });
             for i in 0..N {

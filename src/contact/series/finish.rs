@@ -3,7 +3,7 @@
 use super::hot_layers::SeriesLayers;
 use super::places::{AtPlaces, total};
 use super::series_line::SeriesLine;
-use super::state::{AcrossPast, Past, PatchPast, SeriesState, Tractions};
+use super::state::{AcrossPast, Past, SeriesPast, SeriesState, Tractions};
 use super::surface::{less, plus};
 use super::tables::{POWER, PROFILE};
 use crate::contact::flexibility::ByPowers;
@@ -102,7 +102,7 @@ fn remember(
 ) -> [f64; 2] {
     let time = &line.problem.line.time;
     (state.tractions, state.kernel) = (line.tractions, line.problem.line.kernel);
-    let now = Past::Patch(PatchPast {
+    let now = Past::Series(SeriesPast {
         tractions: line.tractions,
         smooth: line.relative(&line.surface, true),
         field: [line.field.displacement, growth],

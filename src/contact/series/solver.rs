@@ -5,7 +5,7 @@ use super::constants::Constants;
 use super::contact::MOST_LINES;
 use super::hot_layers::SeriesLayers;
 use super::series_line::SeriesStart;
-use super::state::{Past, PatchPast, SeriesState, Tractions};
+use super::state::{Past, SeriesPast, SeriesState, Tractions};
 use super::tables::{POWER, PRESSURE};
 use super::{finish, laws};
 use crate::axes::PerAxis;
@@ -137,7 +137,7 @@ impl ContactSolver for SeriesSolver {
         pressure.terms[0] = 1.0;
         let stick = Arch { terms: Default::default(), ..pressure };
         let tractions = Tractions { pressure, slide: 1.0, stick, directions: None, lateral: Arch::default() };
-        let past = [(); 2].map(|()| Past::Patch(PatchPast::default()));
+        let past = [(); 2].map(|()| Past::Series(SeriesPast::default()));
         let state = SeriesState { tractions, past, ..SeriesState::default() };
         let zeros = || DVector::zeros(2 * POINTS);
         let [loads, surface] = [(); 2].map(|()| [zeros(), zeros()]);

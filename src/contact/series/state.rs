@@ -34,14 +34,14 @@ pub struct Tractions {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Past {
     /// Found on a patch.
-    Patch(PatchPast),
+    Series(SeriesPast),
     /// Found on a grid: the first node \[m], the spacing \[m] and the values \[m].
     Grid(f64, f64, Vec<f64>),
 }
 
 /// Displacement by the half-planes under tractions, `−2κ ∫ q ln|x − s| ds`, and by all else.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PatchPast {
+pub struct SeriesPast {
     /// The tractions.
     pub tractions: Tractions,
     /// All else at the points of the polynomial \[m].
@@ -58,21 +58,21 @@ pub struct PatchPast {
     pub across: AcrossPast,
 }
 
-/// Displacement across by all lines of the patch as [`PatchPast::field`], and the line's own flexibility across.
+/// Displacement across by all lines of the patch as [`SeriesPast::field`], and the line's own flexibility across.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AcrossPast {
     pub field: [ByPowers; 2],
     pub kernel: Logarithm,
 }
 
-impl Default for PatchPast {
+impl Default for SeriesPast {
     fn default() -> Self {
         let (tractions, smooth, field, across) = Default::default();
         Self { tractions, smooth, field, half_length: 1.0, reach: 0.0, share: 0.0, across }
     }
 }
 
-impl PatchPast {
+impl SeriesPast {
     /// Displacement across at x \[m], carried on by a line with the given share of the width.
     pub fn across<const N: usize>(&self, x: &[f64; N], share: f64) -> [f64; N] {
         let (carried, AcrossPast { field, kernel }) = (self.carried(share), self.across);
@@ -119,7 +119,7 @@ impl SeriesState {
     /// Tractions that are expected after a step: pressure and the part that sticks go on changing as they did in the last one.
     pub fn expected(&self, time: &TimeDerivative) -> Tractions {
         let now = self.tractions;
-        let Past::Patch(PatchPast { tractions: earlier, .. }) = &self.past[1] else { return now };
+        let Past::Series(SeriesPast { tractions: earlier, .. }) = &self.past[1] else { return now };
         let (ratio, share) = (time.step_ratio(), now.share());
         let change = ratio * (share - earlier.share());
         // Where nearly all or nothing sticks, slip may come from the other side or go.
@@ -184,7 +184,7 @@ impl Past {
     /// True if all numbers are finite and in range.
     pub fn is_sound(&self) -> bool {
         match self {
-            Past::Patch(PatchPast { tractions, smooth, field, half_length, reach, share, across }) => {
+            Past::Series(SeriesPast { tractions, smooth, field, half_length, reach, share, across }) => {
                 *half_length > 0.0
                     && half_length.is_finite()
                     && field.iter().chain(&across.field).all(|by| by.iter().all(|c| c.is_finite()))
@@ -207,7 +207,7 @@ impl Past {
     /// the width; `None`: by one like that which had it.
     pub fn at<const N: usize>(&self, x: &[f64; N], (kernel, share): (f64, Option<f64>), points: &Lagrange) -> [f64; N] {
         match self {
-            Past::Patch(past) => {
+            Past::Series(past) => {
                 let carried = share.map_or(1.0, |share| past.carried(share));
                 let by_lines = past.by_lines(&past.field, carried, x);
                 let (smooth, logarithm) = (points.polynomial(&past.smooth), past.tractions.shear_logarithm(x));
