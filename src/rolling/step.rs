@@ -227,11 +227,10 @@ fn solve_and_commit(
 
     next.motion = moved(&state.motion, [td, of_height], next.rigid());
     model.bodies.commit(&operators, free, next.motion.accelerations(), td, state, next);
-    let driving = {
+    next.hub.driving = {
         let (forces, resultant) = (next.loads(0), next.resultant());
         model.wheel.hub_forces(drives, &next.motion, &operators.wheel, &free[0], &forces, resultant)
     };
-    next.hub.driving = driving;
     next.hub.brake =
         Brake::applied(plan.given.rotation, drives.rotation, &next.motion, next.hub.driving.rotation, [td.a0, *dt]);
     next.hub.force = PerAxis::from_fn(|axis| plan.given[axis].loads().map_or(next.hub.driving[axis], |[load, _]| load));

@@ -60,7 +60,6 @@ pub fn finish(line: ContactLine) {
     let slopes = Slopes { grid, gap: &state.gap, overlap, rail_slope: &given.rail_slope, depth: &given.depth };
     observe::lift(grid, problem, &traction.port_forces, load, lift, displaced);
     let wheel = WheelShape { radius: problem.radius(), frame: &frame, surface: &traction.surface[0], lift };
-    traction.friction.slip_speed = traction.friction.tread_slip.abs();
     traction.resultant = observe::resultant(wheel, slopes, traction);
     traction.resultant.rotation -= problem.radius() * retarded.force.iter().sum::<f64>();
     observe::overlap(grid, state, overlap, traction);

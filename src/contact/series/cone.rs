@@ -51,7 +51,7 @@ pub struct ConeProblem {
     most: f64,
 }
 
-/// What friction says of a point.
+/// State that friction asks of a point.
 #[derive(Clone, Copy)]
 enum PointState {
     Stick,
@@ -62,8 +62,8 @@ enum PointState {
     },
 }
 
-/// What friction says of all points of a line.
-pub struct Verdict {
+/// States that friction asks of all points of a line.
+pub struct ConeVerdict {
     points: [PointState; COUNT],
     /// Largest violation of friction over its peak \[1], and the sum of the squares of all.
     pub largest: f64,
@@ -180,8 +180,8 @@ impl ConeProblem {
         self.rows[0].by_shear.iter().map(|by| by[i][i].abs()).fold(f64::MIN_POSITIVE, f64::max)
     }
 
-    /// What friction says of a shear and the slip by all else as polynomials.
-    pub fn verdict(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Verdict {
+    /// States that friction asks for under a shear and the slip by all else as polynomials.
+    pub fn verdict(&self, shear: &Vectors, others: &[f64; SLIPS]) -> ConeVerdict {
         let slips = self.rows[0].slips(shear, others);
         let (mut points, mut largest, mut squares) = ([PointState::Stick; COUNT], 0.0_f64, 0.0);
         for (i, point) in points.iter_mut().enumerate() {
@@ -189,10 +189,10 @@ impl ConeProblem {
             let violation = violation / self.most.max(f64::MIN_POSITIVE);
             (*point, largest, squares) = (state, largest.max(violation), squares + violation * violation);
         }
-        Verdict { points, largest, squares }
+        ConeVerdict { points, largest, squares }
     }
 
-    /// What friction says of a point with the shear q and the slip s, and its violation \[Pa].
+    /// State that friction asks of a point with the shear q and the slip s, and its violation \[Pa].
     fn judge(&self, i: usize, q: [f64; 2], s: [f64; 2]) -> (PointState, f64) {
         let (bears, least) = (self.bears[i], self.least(i));
         let held = [0, 1].map(|c| q[c] - s[c] / least);
@@ -207,7 +207,7 @@ impl ConeProblem {
     }
 
     /// Shear in the law as it is linear about a verdict; `None`: the equations are singular.
-    pub fn answer(&self, verdict: &Verdict) -> Option<ConeAnswer> {
+    pub fn answer(&self, verdict: &ConeVerdict) -> Option<ConeAnswer> {
         let bound = std::array::from_fn(|c| {
             std::array::from_fn(|i| match verdict.points[i] {
                 PointState::Stick => 0.0,
@@ -254,7 +254,7 @@ struct Unknown {
 
 impl Unknown {
     /// Two of each point that sticks, and one of each that slips and bears anything.
-    fn of(verdict: &Verdict) -> Vec<Self> {
+    fn of(verdict: &ConeVerdict) -> Vec<Self> {
         let mut all = Vec::with_capacity(UNKNOWNS);
         for (point, state) in verdict.points.iter().enumerate() {
             match *state {
@@ -271,7 +271,7 @@ impl Unknown {
     }
 }
 
-impl Verdict {
+impl ConeVerdict {
     /// States of the points: 0 where they stick, 1 where they slip.
     pub fn states(&self) -> [i8; COUNT] {
         self.points.map(|point| match point {

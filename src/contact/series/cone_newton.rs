@@ -1,7 +1,7 @@
 //! Newton's method on the law of [`super::cone`] under given pressures, all lines and motions at once.
 
 use super::across::Vectors;
-use super::cone::{ConeAnswer, ConeProblem, SLIPS, Verdict};
+use super::cone::{ConeAnswer, ConeProblem, ConeVerdict, SLIPS};
 use super::contact::{MOST_LINES, SeriesContact};
 use super::together::Answer;
 use crate::axes::PerAxis;
@@ -25,7 +25,7 @@ const REPEATED: f64 = 1e-6;
 
 /// Ways to search for a first shear.
 #[derive(Clone, Copy)]
-enum Search {
+enum NewtonWay {
     Whole,
     Along,
     Path,
@@ -44,7 +44,7 @@ pub struct Newton<'a> {
     slips: Vec<[f64; SLIPS]>,
     /// Present motions.
     pub rigid: PerAxis<f64>,
-    pub verdicts: Vec<Verdict>,
+    pub verdicts: Vec<ConeVerdict>,
 }
 
 impl<'a> Newton<'a> {
@@ -76,7 +76,7 @@ impl<'a> Newton<'a> {
         self.verdicts = self.judge(&self.shears, &self.slips);
     }
 
-    fn judge(&self, shears: &[Vectors], slips: &[[f64; SLIPS]]) -> Vec<Verdict> {
+    fn judge(&self, shears: &[Vectors], slips: &[[f64; SLIPS]]) -> Vec<ConeVerdict> {
         self.problems.iter().zip(shears).zip(slips).map(|((problem, q), slips)| problem.verdict(q, slips)).collect()
     }
 
@@ -91,11 +91,13 @@ impl<'a> Newton<'a> {
     pub fn run(&mut self, contact: &mut SeriesContact, tolerance: f64, moved: bool) -> Result<(), ContactError> {
         let begun = self.now();
         let mut best = (self.largest(), begun.clone());
-        for (search, unseen) in [(Search::Whole, UNSEEN[0]), (Search::Along, UNSEEN[1]), (Search::Path, UNSEEN[1])] {
+        for (search, unseen) in
+            [(NewtonWay::Whole, UNSEEN[0]), (NewtonWay::Along, UNSEEN[1]), (NewtonWay::Path, UNSEEN[1])]
+        {
             let found = match search {
-                Search::Whole => self.steps(contact, tolerance, (WHOLE, false, moved), &mut best),
-                Search::Along => self.steps(contact, tolerance, (SEARCHED, true, moved), &mut best),
-                Search::Path => {
+                NewtonWay::Whole => self.steps(contact, tolerance, (WHOLE, false, moved), &mut best),
+                NewtonWay::Along => self.steps(contact, tolerance, (SEARCHED, true, moved), &mut best),
+                NewtonWay::Path => {
                     self.follow(contact) && self.steps(contact, tolerance, (SEARCHED, true, moved), &mut best)
                 }
             };
@@ -204,7 +206,7 @@ impl<'a> Newton<'a> {
         let found: [_; MOST_LINES] = contact.share(&answers).ok()?;
         let (rigid, slips) = (contact.lines[0].rigid, &found[..answers.len()]);
         let shears: Vec<_> = answers.iter().flatten().zip(slips).map(|(answer, slips)| answer.shear(slips)).collect();
-        let squares = |verdicts: &[Verdict]| verdicts.iter().map(|verdict| verdict.squares).sum::<f64>();
+        let squares = |verdicts: &[ConeVerdict]| verdicts.iter().map(|verdict| verdict.squares).sum::<f64>();
         let before = squares(&self.verdicts).sqrt();
         let mut part = 1.0;
         loop {

@@ -3,7 +3,7 @@
 
 use super::across::Vectors;
 use super::chebyshev::{Arch, TERMS};
-use super::cone::{ConeProblem, Verdict};
+use super::cone::{ConeProblem, ConeVerdict};
 use super::cone_newton::{Newton, UNSEEN};
 use super::contact::SeriesContact;
 use super::places::total;
@@ -124,7 +124,7 @@ impl ConeSearch {
         self.uncorrected_motion = PerAxis::from_fn(|axis| motion[axis] - newton.rigid[axis]);
         let left = left.max(newton.largest());
         self.shears = newton.shears;
-        self.states = newton.verdicts.iter().map(Verdict::states).collect();
+        self.states = newton.verdicts.iter().map(ConeVerdict::states).collect();
         let rigid = newton.rigid;
         contact.lines.iter_mut().for_each(|line| line.rigid = rigid);
         self.write(contact);

@@ -193,7 +193,7 @@ mod tests {
             rim_angle: [0.001, 0.002].map(|by| (0..CLOSED).map(|i| by * wave(i, 1)).collect()),
             friction: (0..CLOSED).map(|i| if i < STUCK { 0.0 } else { 0.3 }).collect(),
             stuck: (0..STUCK).collect(),
-            motions: [vec![0.01; CLOSED], vec![1.0; CLOSED], vec![]],
+            motions: [vec![0.01; CLOSED], vec![1.0; CLOSED], vec![], vec![]],
             ..PressureShear::default()
         };
         equations.reset(STUCK + 1, true);
