@@ -176,6 +176,7 @@ impl ContactSolver for Hertz {
             friction: SolvedFriction {
                 coefficient: problem.line.friction.coefficient(slip),
                 tread_slip: slip,
+                slip_speed: slip.abs(),
                 power: 0.0,
                 work: 0.0,
                 dissipation: profile(vec![0.0; PROFILE]),
@@ -190,6 +191,7 @@ impl ContactSolver for Hertz {
             slip: profile(vec![slip; PROFILE]),
             yielding: Yielding::default(),
             iterations,
+            ..Traction::default()
         };
         found.solver = SolverState::Stateless;
         Ok(())
