@@ -9,7 +9,7 @@ use random::Random;
 use wheelrail::contact::{ContactScratch, Friction, RigidMotion, SolverState, Spin};
 use wheelrail::multistep::TimeDerivative;
 
-/// What moves the wheel in a step.
+/// Motion of the wheel in a step.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     /// Speeds of hub and rim and across [m/s].
@@ -123,7 +123,7 @@ fn random_transients_are_solved_within_the_cone_and_cost_some_steps() {
     check(20, 7);
 }
 
-/// The same in large number: minutes of CPU.
+/// Large number of them: minutes of CPU.
 #[test]
 #[ignore]
 fn ten_thousand_random_transients_are_solved() {

@@ -35,7 +35,7 @@ pub enum ContactError {
          stands in the way"
     )]
     Sideways {
-        /// What stands in the way, with the parameter that puts it there.
+        /// Obstacle, with the parameter that puts it there.
         reason: &'static str,
     },
     /// The solver takes one contact line.

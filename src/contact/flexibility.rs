@@ -393,6 +393,34 @@ mod tests {
         }
     }
 
+    /// Betti along and across: the works of two lines on each other are the same, and a load that moves along does none.
+    #[test]
+    fn works_along_and_across_of_two_lines_on_each_other_are_the_same() {
+        let tiles = strips(1e-3);
+        let (patch, reaches) = PatchFlexibility::new(&tiles, false, STEEL).0.sideways(&tiles, STEEL);
+        let forces = [
+            [[1.0, 0.3, -0.2, 0.5, 0.1], [0.2, -0.7, 0.4, 0.1, 0.9]],
+            [[0.4, -1.0, 0.7, 0.2, -0.3], [-0.5, 0.3, 0.8, -0.6, 0.2]],
+            [[2.0, 0.1, 0.1, -0.6, 0.8], [1.1, 0.5, -0.9, 0.3, -0.1]],
+        ];
+        let none = [ByPowers::default(); 2];
+        let work = |at: usize, by: usize, of: fn(&Between) -> &ByMoments| -> f64 {
+            let moments = (0..tiles.len()).map(|line| if line == by { &forces[line] } else { &none });
+            let fields = patch.sums(at, moments.map(|[along, across]| [along, across]), of);
+            let product = forces[at].as_flattened().iter().zip(fields.as_flattened()).map(|(f, c)| f * c).sum::<f64>();
+            tiles[at].width() * product
+        };
+        let mut moved = 0.0;
+        for (k, tile) in tiles.iter().enumerate() {
+            for j in 0..tiles.len() {
+                let works = [work(k, j, |by| &by.displacement), work(j, k, |by| &by.displacement)];
+                assert!((works[0] - works[1]).abs() < 1e-12 * works[0].abs() + 1e-26, "{works:?}");
+                moved += work(k, j, |by| &by.strain) / tile.half_length;
+            }
+        }
+        assert!(moved.abs() < 1e-23 && reaches.iter().all(|reach| reach.is_finite()), "{moved:e}");
+    }
+
     #[test]
     fn tables_are_the_same_for_patches_of_every_size() {
         let [(small, reaches), (large, others)] = [1e-3, 2e-3].map(|s| PatchFlexibility::new(&strips(s), true, STEEL));

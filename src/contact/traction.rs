@@ -99,7 +99,7 @@ impl SolvedFriction {
     /// the power for which the profile of dissipation stands. Friction never cools: where it is less than the errors of
     /// what hot material gives back, it heats nothing. Nor does it where its coefficient is zero.
     pub(super) fn dissipate(&mut self, friction: f64, work: f64, duration: f64) -> f64 {
-        (self.power, self.work) = (friction, work);
+        (self.power, self.work, self.slip_speed) = (friction, work, self.tread_slip.abs());
         if self.coefficient == 0.0 {
             self.excess = 0.0;
             return 0.0;

@@ -126,12 +126,19 @@ mod tests {
 
     /// Double integral of the displacement by point forces over both tiles by the rule of the middle.
     fn integral(at: Tile, of: Tile, x: f64) -> f64 {
+        integral_of(at, of, |s| {
+            let r = x.hypot(s);
+            (1.0 - NU) / r + NU * x * x / r.powi(3)
+        })
+    }
+
+    /// Mean over a tile of the integral over another one of a function of their lateral distance.
+    fn integral_of(at: Tile, of: Tile, kernel: impl Fn(f64) -> f64) -> f64 {
         let n = 400;
         let place = |tile: Tile, i: i32| tile.edges[0] + tile.width() * (f64::from(i) + 0.5) / f64::from(n);
         let mut sum = 0.0;
         for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
-            let r = x.hypot(place(at, i) - place(of, j));
-            sum += (1.0 - NU) / r + NU * x * x / r.powi(3);
+            sum += kernel(place(at, i) - place(of, j));
         }
         sum * of.width() / f64::from(n * n)
     }
@@ -149,6 +156,40 @@ mod tests {
         }
     }
 
+    #[test]
+    fn tiles_are_displaced_across_and_askew_as_the_integrals_over_point_forces_say() {
+        for (at, of) in
+            [(tile(-1.0, 0.5), tile(-1.0, 0.5)), (tile(0.5, 1.0), tile(-1.0, 0.5)), (tile(0.2, 1.0), tile(3.0, 5.0))]
+        {
+            for x in [0.1, -0.7, 4.0_f64] {
+                let own = if at == of { -2.0 * x.abs().ln() } else { 0.0 };
+                let across = integral_of(at, of, |s| 1.0 / x.hypot(s) - NU * x * x / x.hypot(s).powi(3));
+                let askew = integral_of(at, of, |s| NU * x * s / x.hypot(s).powi(3));
+                let found =
+                    [at.displaced_across_by(of, x, NU), at.displaced_askew_by(of, x, NU)].map(|it| it.displacement);
+                assert!(((found[0] + own) / across - 1.0).abs() < 2e-4, "{at:?} {of:?} {x}: {found:?} {across}");
+                assert!((found[1] - askew).abs() < 1e-4 * across, "{at:?} {of:?} {x}: {found:?} {askew}");
+            }
+        }
+    }
+
+    #[test]
+    fn strains_and_growth_across_and_askew_are_those_of_differences() {
+        let (step, of) = (1e-5, tile(-0.5, 0.7));
+        for (at, x) in [(tile(0.7, 1.0), 0.2), (tile(1.2, 1.4), -0.6_f64)] {
+            for kernel in [Tile::displaced_across_by, Tile::displaced_askew_by] {
+                let found = kernel(at, of, x, NU);
+                let by_place = [x + step, x - step].map(|x| kernel(at, of, x, NU).displacement);
+                assert!((found.strain - (by_place[0] - by_place[1]) / (2.0 * step)).abs() < 1e-8);
+            }
+            // Sizes change the logarithms of what is left out of one another's, which cancel askew.
+            let sized = |scale: f64| Tile { edges: at.edges.map(|z| z * scale), ..at };
+            let by_size = [1.0 + step, 1.0 - step].map(|scale| sized(scale).displaced_askew_by(of, x, NU).displacement);
+            let growth = at.displaced_askew_by(of, x, NU).growth;
+            assert!((growth - (by_size[0] - by_size[1]) / (2.0 * step)).abs() < 1e-6);
+        }
+    }
+
     /// Betti: the works of two forces on each other's displacements are the same.
     #[test]
     fn tiles_displace_each_other_in_proportion_to_their_widths() {
@@ -157,6 +198,11 @@ mod tests {
             let [there, back] = [a.displaced_by(b, x, NU), b.displaced_by(a, -x, NU)];
             assert!((a.width() * there.displacement - b.width() * back.displacement).abs() < 1e-14);
             assert!((a.width() * there.strain + b.width() * back.strain).abs() < 1e-14);
+            for kernel in [Tile::displaced_across_by, Tile::displaced_askew_by] {
+                let [there, back] = [kernel(a, b, x, NU), kernel(b, a, -x, NU)];
+                assert!((a.width() * there.displacement - b.width() * back.displacement).abs() < 1e-14);
+                assert!(x == 0.0 || (a.width() * there.strain + b.width() * back.strain).abs() < 1e-14);
+            }
         }
     }
 

@@ -18,7 +18,6 @@ pub fn finish(line: &mut ContactLine) {
         given.layers.pull[body].iter().enumerate().for_each(|(i, pull)| loads[grid.port(i)] += pull);
     }
     let power = traction.friction.dissipate(friction, work, problem.duration);
-    line.traction.friction.slip_speed = line.traction.friction.tread_slip.abs();
     line.traction.resultant = line.resultant();
     let ContactLine { grid, given, iterate, state, traction, .. } = line;
     let LineIterate { overlap, centred_slip, .. } = &**iterate;

@@ -5,18 +5,7 @@ use super::points::COUNT;
 use super::series_line::SeriesLine;
 use super::state::Past;
 use super::tables::POWER;
-use crate::contact::flexibility::{ByPowers, Field, values};
-
-/// What belongs to the lateral direction of a line.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Across {
-    /// Moments of the shear across with the powers of the places [N/m].
-    pub powers: ByPowers,
-    /// Displacement and strain across by the lines of the patch under their present shear.
-    pub field: Field,
-    /// Slip across at the places of [`SeriesLine::slips`] [m/s], once the solution has been checked.
-    pub slips: [f64; POWER],
-}
+use crate::contact::flexibility::values;
 
 /// Values at all points along and across.
 pub type Vectors = [[f64; COUNT]; 2];

@@ -26,6 +26,9 @@ pub const SLIPS: usize = 2 * POINTS;
 const UNKNOWNS: usize = 2 * COUNT;
 /// Slip times r over the radius of the disc at which half of the correction counts \[1].
 const BEGINNING: f64 = 0.05;
+/// Shear over friction that is as large \[1], and the slip times r over it that is asked for there in a search.
+const AT_LIMIT: f64 = 1.0 - 1e-9;
+const ASKED: f64 = 1e-2;
 
 /// Slips at places that belong to the points.
 struct SlipRows {
@@ -46,12 +49,9 @@ pub struct ConeProblem {
     /// Friction that points bear, and that at the peak of the pressure \[Pa].
     bears: [f64; COUNT],
     most: f64,
-    /// See [`Self::draw`].
-    drag: f64,
-    drawn: Vectors,
 }
 
-/// What friction says of a point.
+/// State that friction asks of a point.
 #[derive(Clone, Copy)]
 enum PointState {
     Stick,
@@ -62,8 +62,8 @@ enum PointState {
     },
 }
 
-/// What friction says of all points of a line.
-pub struct Verdict {
+/// States that friction asks of all points of a line.
+pub struct ConeVerdict {
     points: [PointState; COUNT],
     /// Largest violation of friction over its peak \[1], and the sum of the squares of all.
     pub largest: f64,
@@ -113,7 +113,7 @@ impl SeriesLine<'_> {
         let weights: [f64; COUNT] = std::array::from_fn(|i| half * part * libm::sin((i + 1) as f64 * part));
         let moments = rows[1].powers.map(|power| std::array::from_fn(|i| weights[i] * power[i]));
         let bears = self.tractions.pressure.density(&places[1]).map(|p| self.friction * p.max(0.0));
-        ConeProblem { rows, moments, bears, most: self.friction * terms[0], drag: 0.0, drawn: [[0.0; COUNT]; 2] }
+        ConeProblem { rows, moments, bears, most: self.friction * terms[0] }
     }
 
     /// Slips by the shear of points with the flexibility `kernel` \[m/s/Pa].
@@ -144,20 +144,16 @@ impl ConeProblem {
         within
     }
 
-    /// Draws the shear to the given one: as if every point slipped more by `drag` times what its shear differs.
-    pub fn draw(&mut self, drag: f64, shear: &Vectors) {
-        (self.drag, self.drawn) = (drag, *shear);
-    }
-
-    /// Slips upstream under a shear and the slip by all else as polynomials, with those by which it is drawn.
-    fn slips(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
-        let mut slips = self.rows[0].slips(shear, others);
-        if self.drag > 0.0 {
-            for (c, i) in (0..2).flat_map(|c| (0..COUNT).map(move |i| (c, i))) {
-                slips[c][i] += self.drag * self.least(i) * (shear[c][i] - self.drawn[c][i]);
-            }
-        }
-        slips
+    /// Slips that a shear asks for: none where it sticks, and a little against it where it is as large as friction; less
+    /// those that it has with the slip by all else as polynomials [m/s].
+    pub fn missing(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
+        let slips = self.rows[0].slips(shear, others);
+        std::array::from_fn(|c| {
+            std::array::from_fn(|i| match libm::hypot(shear[0][i], shear[1][i]) >= AT_LIMIT * self.bears[i] {
+                true => -ASKED * self.least(i) * shear[c][i] - slips[c][i],
+                false => -slips[c][i],
+            })
+        })
     }
 
     /// Correction of the slip by the difference between that in the place of the shear and that upstream, where a solution
@@ -184,19 +180,19 @@ impl ConeProblem {
         self.rows[0].by_shear.iter().map(|by| by[i][i].abs()).fold(f64::MIN_POSITIVE, f64::max)
     }
 
-    /// What friction says of a shear and the slip by all else as polynomials.
-    pub fn verdict(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Verdict {
-        let slips = self.slips(shear, others);
+    /// States that friction asks for under a shear and the slip by all else as polynomials.
+    pub fn verdict(&self, shear: &Vectors, others: &[f64; SLIPS]) -> ConeVerdict {
+        let slips = self.rows[0].slips(shear, others);
         let (mut points, mut largest, mut squares) = ([PointState::Stick; COUNT], 0.0_f64, 0.0);
         for (i, point) in points.iter_mut().enumerate() {
             let (state, violation) = self.judge(i, [shear[0][i], shear[1][i]], [slips[0][i], slips[1][i]]);
             let violation = violation / self.most.max(f64::MIN_POSITIVE);
             (*point, largest, squares) = (state, largest.max(violation), squares + violation * violation);
         }
-        Verdict { points, largest, squares }
+        ConeVerdict { points, largest, squares }
     }
 
-    /// What friction says of a point with the shear q and the slip s, and its violation \[Pa].
+    /// State that friction asks of a point with the shear q and the slip s, and its violation \[Pa].
     fn judge(&self, i: usize, q: [f64; 2], s: [f64; 2]) -> (PointState, f64) {
         let (bears, least) = (self.bears[i], self.least(i));
         let held = [0, 1].map(|c| q[c] - s[c] / least);
@@ -211,7 +207,7 @@ impl ConeProblem {
     }
 
     /// Shear in the law as it is linear about a verdict; `None`: the equations are singular.
-    pub fn answer(&self, verdict: &Verdict) -> Option<ConeAnswer> {
+    pub fn answer(&self, verdict: &ConeVerdict) -> Option<ConeAnswer> {
         let bound = std::array::from_fn(|c| {
             std::array::from_fn(|i| match verdict.points[i] {
                 PointState::Stick => 0.0,
@@ -220,14 +216,13 @@ impl ConeProblem {
         });
         let unknowns = Unknown::of(verdict);
         let (rows, count) = (&self.rows[0], unknowns.len());
-        let slips = self.slips(&bound, &[0.0; SLIPS]);
+        let slips = rows.slips(&bound, &[0.0; SLIPS]);
         let mut columns = [[0.0; UNKNOWNS]; UNKNOWNS + 1 + SLIPS];
         for (row, Unknown { point: i, along, turn }) in unknowns.iter().enumerate() {
             for (column, by) in columns.iter_mut().zip(&unknowns) {
                 let part = |c: usize| along[c] * by.along[c] * rows.by_shear[c][by.point][*i];
                 column[row] = part(0) + part(1);
             }
-            columns[row][row] += self.drag * self.least(*i);
             columns[row][row] += turn;
             columns[count][row] = -(along[0] * slips[0][*i] + along[1] * slips[1][*i]);
             for (k, column) in columns[count + 1..].iter_mut().take(SLIPS).enumerate() {
@@ -241,9 +236,7 @@ impl ConeProblem {
         shears[0] = bound;
         for (shear, column) in shears.iter_mut().zip(&columns[count..]) {
             for (unknown, value) in unknowns.iter().zip(column) {
-                for c in 0..2 {
-                    shear[c][unknown.point] += unknown.along[c] * value;
-                }
+                shear.iter_mut().zip(unknown.along).for_each(|(shear, along)| shear[unknown.point] += along * value);
             }
         }
         let moments = shears.each_ref().map(|shear| self.moments(shear));
@@ -261,7 +254,7 @@ struct Unknown {
 
 impl Unknown {
     /// Two of each point that sticks, and one of each that slips and bears anything.
-    fn of(verdict: &Verdict) -> Vec<Self> {
+    fn of(verdict: &ConeVerdict) -> Vec<Self> {
         let mut all = Vec::with_capacity(UNKNOWNS);
         for (point, state) in verdict.points.iter().enumerate() {
             match *state {
@@ -278,7 +271,7 @@ impl Unknown {
     }
 }
 
-impl Verdict {
+impl ConeVerdict {
     /// States of the points: 0 where they stick, 1 where they slip.
     pub fn states(&self) -> [i8; COUNT] {
         self.points.map(|point| match point {

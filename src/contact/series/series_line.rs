@@ -1,6 +1,5 @@
 //! One line on its way to the solution on a single patch.
 
-use super::across::Across;
 use super::chebyshev::Arch;
 use super::constants::Constants;
 use super::hot_layers::{self, SeriesLayers};
@@ -29,6 +28,17 @@ impl<'a> SeriesStart<'a> {
     pub fn of(state: &'a ContactState) -> Option<Self> {
         Some(Self { before: state.solver.series()?, history: &state.history, traction: &state.traction })
     }
+}
+
+/// The lateral direction of a line.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Across {
+    /// Moments of the shear across with the powers of the places [N/m].
+    pub powers: ByPowers,
+    /// Displacement and strain across by the lines of the patch under their present shear.
+    pub field: Field,
+    /// Slip across at the places of [`SeriesLine::slips`] [m/s], once the solution has been checked.
+    pub slips: [f64; POWER],
 }
 
 /// A line with a single patch in the present iterate.
@@ -68,7 +78,7 @@ pub struct SeriesLine<'a> {
     pub powers: [ByPowers; 2],
     /// Effect of the lines of the patch under their present shear.
     pub field: Field,
-    /// What belongs to the lateral direction.
+    /// Its lateral direction.
     pub across: Across,
     /// Slip at the places of [`Self::slipping`] [m/s], once the solution has been checked.
     pub slips: [f64; POWER],
