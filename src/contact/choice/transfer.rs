@@ -183,7 +183,8 @@ pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &Contac
         Past::Grid(grid.x[even.start], grid.spacing, state.tangential_gap[even.clone()].iter().map(value).collect())
     };
     let friction = friction_history(constants, &tractions, side, from);
-    let patch = SeriesState { tractions, kernel: LineKernel::default(), past: [history(false), history(true)] };
+    let patch =
+        SeriesState { tractions, kernel: LineKernel::default(), past: [history(false), history(true)], slope: 0.0 };
     let mut moved = ContactState {
         ports: Ports::Smooth,
         traction: traction.clone(),

@@ -57,6 +57,8 @@ pub struct SeriesLine<'a> {
     pub rigid: PerAxis<f64>,
     /// Tractions and motions with which the search began.
     begun: (Tractions, PerAxis<f64>),
+    /// See [`SeriesState::slope`].
+    pub slope: f64,
     /// Rim angle \[rad].
     pub rim_angle: f64,
     /// Friction coefficient \[1], and that of the step before.
@@ -102,6 +104,7 @@ impl<'a> SeriesLine<'a> {
             tractions,
             rigid,
             begun: (tractions, rigid),
+            slope: before.slope,
             rim_angle: history.rim_angle.now,
             friction: problem.line.friction.coefficient(traction.friction.slip_speed),
             before_friction: traction.friction.coefficient,
@@ -121,7 +124,7 @@ impl<'a> SeriesLine<'a> {
     /// Returns to where the search began.
     pub fn begin_anew(&mut self) {
         (self.tractions, self.rigid) = self.begun;
-        self.rim_angle = self.history.rim_angle.now;
+        (self.slope, self.rim_angle) = (self.before.slope, self.history.rim_angle.now);
     }
 
     /// Goes on in another layout, with its load times `factor`.

@@ -107,6 +107,9 @@ pub struct SeriesState {
     pub kernel: LineKernel,
     /// Tangential displacement at its end, and one step earlier.
     pub past: [Past; 2],
+    /// How the root at the place where slip begins depends on this place: change of its strength over the friction at
+    /// the peak of the pressure, per share of the patch \[1]; where the search of the next step starts.
+    pub slope: f64,
 }
 
 impl Default for Past {
@@ -116,7 +119,7 @@ impl Default for Past {
 }
 
 impl SeriesState {
-    /// Tractions that are expected after a step: pressure and the part that sticks go on changing as they did in the last one.
+    /// Tractions that are expected after a step: the part that sticks goes on changing as it did in the last one.
     pub fn expected(&self, time: &TimeDerivative) -> Tractions {
         let now = self.tractions;
         let Past::Series(SeriesPast { tractions: earlier, .. }) = &self.past[1] else { return now };
@@ -127,10 +130,15 @@ impl SeriesState {
         if !now.same_branch(earlier) || now.slides() || now.directions.is_some() || !steady {
             return now;
         }
-        let pressure = now.pressure.onwards(&earlier.pressure, ratio);
-        let stick = now.stick.onwards(&earlier.stick, ratio);
-        let stick = Arch { half_width: (share + change) * pressure.half_width, ..stick };
-        Tractions { pressure, stick, ..now }
+        let [new, old] = [&now.stick, &earlier.stick];
+        let onwards = |new: f64, old: f64| new + ratio * (new - old);
+        let stick = Arch {
+            centre: onwards(new.centre, old.centre),
+            half_width: (share + change) * now.pressure.half_width,
+            count: new.count,
+            terms: std::array::from_fn(|k| onwards(new.terms[k], old.terms[k])),
+        };
+        Tractions { stick, ..now }
     }
 }
 

@@ -20,10 +20,10 @@ const CHANGES: usize = 6;
 const LEFT: f64 = 0.2;
 /// Root over friction at the peak of the pressure below which all sticks, whatever direction slip would have \[1].
 const NEITHER: f64 = 1e-10;
-/// Error of a solution over the change of motions in it \[1]: strains carry slip with them.
-const STRAINED: f64 = 1e-3;
-/// Change of the root with the share of stick, over that of Carter's tractions, that is believed \[1].
-const BELIEVED: std::ops::Range<f64> = 0.2..5.0;
+/// Smallest change of the length of stick that says how the root depends on it \[1]; over the change of the pressure
+/// meanwhile, too: roots after shorter ones are those of other changes.
+const LONG: f64 = 1e-6;
+const NOTICED: f64 = 10.0;
 
 /// Largest error of the places where slip begins, and largest change of motions, that end the search \[1]: friction forces
 /// are off by about twice as much. In equilibria, which others improve from solution to solution, it is smaller.
@@ -31,8 +31,8 @@ const TOLERANCE: f64 = 2e-11;
 const AT_REST: f64 = 1e-12;
 /// Largest change that ends it where rounding allows no more.
 const ROUNDING: f64 = 1e-9;
-/// Error of pressures over their last change \[1].
-const PRESSED: f64 = 0.03;
+/// Weight of the change of pressures before the last solution of the tangential problem \[1]; that after it is far smaller.
+const PRESSED: f64 = 0.1;
 /// Iterations of the normal problem before those of both, and the change that makes them needless.
 const WARM: usize = 3;
 const CLOSE: f64 = 1e-3;
@@ -56,7 +56,7 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let (mut search, mut settling) = (Search::new(contact), Settling::new(contact));
     // Normal and tangential problem improve each other by turns.
     for _ in 0..MOST {
-        let tangential = search.advance(contact)?;
+        let tangential = search.advance(contact, normal)?;
         if settling.is_last(normal, tangential) && search.check(contact)? {
             return Ok(());
         }
@@ -97,8 +97,9 @@ impl Search {
         Self { lines }
     }
 
-    /// Improves shear and motions; returns the largest relative error that is left, infinite where a search begins anew.
-    fn advance(&mut self, contact: &mut SeriesContact) -> Result<f64, ContactError> {
+    /// Improves shear and motions after a relative change `normal` of the pressure; returns the largest relative change,
+    /// infinite where a search begins anew: how changes fall is not known then.
+    fn advance(&mut self, contact: &mut SeriesContact, normal: f64) -> Result<f64, ContactError> {
         let before = Motions::of(contact);
         let mut halves = [None; MOST_LINES];
         for ((half, search), line) in halves.iter_mut().zip(&self.lines).zip(&contact.lines) {
@@ -106,19 +107,20 @@ impl Search {
         }
         if halves.iter().all(Option::is_none) {
             contact.glide()?;
-            return Ok(STRAINED * before.moved(contact));
+            return Ok(before.moved(contact));
         }
         let mut roots = [0.0; MOST_LINES];
         let count = contact.lines.len();
         contact.stick(&halves[..count], &mut roots)?;
-        let (moved, mut left) = (before.moved(contact), 0.0_f64);
+        let (moved, mut largest) = (before.moved(contact), 0.0_f64);
         let lines = contact.lines.iter_mut().zip(&mut self.lines);
         for ((line, search), root) in lines.zip(roots) {
-            left = left.max(search.improve(line, root, moved)?);
-            line.place_shear();
+            largest = largest.max(search.improve(line, root, [normal, moved])?);
         }
-        contact.displace();
-        Ok(left)
+        if largest > LONG {
+            contact.displace();
+        }
+        Ok(largest)
     }
 
     /// True if the solution obeys friction on every line; `false`: the search has to go on.
@@ -127,6 +129,7 @@ impl Search {
         contact.exchange();
         for (line, search) in contact.lines.iter_mut().zip(&mut self.lines) {
             obeyed &= search.check(line)?;
+            line.slope = search.slope(line);
         }
         Ok(obeyed)
     }
@@ -162,6 +165,10 @@ impl Motions {
 struct StickSearch {
     /// Half-length of the stretch that sticks over that of the patch; `None`: all slips.
     share: Option<f64>,
+    /// Share and root of the evaluation before.
+    last: Option<[f64; 2]>,
+    /// Change of the root per change of the share.
+    slope: f64,
     /// Largest relative change in the iteration before.
     moving: f64,
     changes: usize,
@@ -180,49 +187,69 @@ impl StickSearch {
         let sign = if tractions.slide < 0.0 { -1.0 } else { 1.0 };
         tractions.slide = sign * mu;
         let share = share.filter(|_| mu > 0.0).map(|share| share.clamp(SHORTEST, 1.0));
-        Self { share, moving: 0.0, changes: 0, torn: false }
+        let known = it.slope;
+        let slope = Self::quasistatic(it) * if known > 0.0 { known } else { 1.0 };
+        Self { share, last: None, slope, moving: 0.0, changes: 0, torn: false }
     }
 
-    /// Improves the length of stick after a solution with a `root`; returns the largest relative error that is left, infinite
-    /// where the search begins anew. Motions have changed by `moved` \[1].
-    ///
-    /// With the change of the root at unchanged tractions this is Newton's method for all lines together: a root that is
-    /// taken for a longer stretch leaves everything else as it is to first order.
-    fn improve(&mut self, it: &mut SeriesLine, root: f64, moved: f64) -> Result<f64, ContactError> {
-        let Some(share) = self.share else { return Ok(STRAINED * moved) };
-        let (peak, of_carter) =
-            (it.friction * it.tractions.pressure.terms[0], it.tractions.slide * it.tractions.pressure.terms[0]);
-        let slope =
-            Some(it.root_by_share()).filter(|slope| BELIEVED.contains(&(slope / of_carter))).unwrap_or(of_carter);
-        let wanted = share - root / slope;
+    /// Change of the root per share in stationary rolling on half-planes: that of Carter's tractions \[Pa].
+    fn quasistatic(it: &SeriesLine) -> f64 {
+        it.tractions.slide * it.tractions.pressure.terms[0]
+    }
+
+    /// The slope over the quasistatic one \[1].
+    fn slope(&self, it: &SeriesLine) -> f64 {
+        let slope = self.slope / Self::quasistatic(it);
+        if slope.is_finite() { slope } else { 0.0 }
+    }
+
+    /// Improves the length of stick after a solution with a `root`; returns the largest relative change, infinite where
+    /// the search begins anew. Pressures have changed by `normal` and motions by `moved` \[1].
+    fn improve(&mut self, it: &mut SeriesLine, root: f64, [normal, moved]: [f64; 2]) -> Result<f64, ContactError> {
+        let Some(share) = self.share else { return Ok(moved) };
+        if let Some([other, there]) = self.last
+            && let moved = (share - other).abs()
+            && (moved > LONG || (root / there).abs() > LEFT)
+            && moved > NOTICED * normal
+        {
+            let slope = (root - there) / (share - other);
+            if slope * self.slope > 0.0 && slope.is_finite() {
+                self.slope = slope;
+            }
+        }
+        self.last = Some([share, root]);
+        let peak = it.friction * it.tractions.pressure.terms[0];
+        let next = share - root / self.slope;
         let lasting = root.abs() > peak * NEITHER.max(LEFT * self.moving);
-        if wanted >= 1.0 && share >= 1.0 && lasting {
+        if next >= 1.0 && share >= 1.0 && lasting {
             // Sticking everywhere asks for slip in the other direction, and not for the changes of other lines alone; the
             // shear stays as it is.
             let Tractions { pressure, slide, stick, .. } = &mut it.tractions;
             stick.terms.iter_mut().zip(&pressure.terms).for_each(|(q, p)| *q += 2.0 * *slide * p);
             *slide = -*slide;
-            self.turn_over(Some(1.0))?;
+            self.turn_over(it, Some(1.0))?;
             return Ok(f64::INFINITY);
         }
-        if wanted < SHORTEST && share <= SHORTEST {
-            self.turn_over(None)?;
+        if next < SHORTEST && share <= SHORTEST {
+            self.turn_over(it, None)?;
             return Ok(f64::INFINITY);
         }
-        let next = wanted.clamp((0.3 * share).max(SHORTEST), 1.0);
+        let next = next.clamp((0.3 * share).max(SHORTEST), 1.0);
         self.share = Some(next);
-        it.restretch(next / share);
-        let change = (next - share).abs();
-        self.moving = (root / peak).abs().max(change).max(moved);
-        Ok((change * change / share).max((wanted - next).abs()).max(STRAINED * moved))
+        if (next - share).abs() > LONG {
+            it.restretch(next / share);
+        }
+        let change = (root / peak).abs().max((next - share).abs());
+        self.moving = change.max(moved);
+        Ok(self.moving)
     }
 
-    fn turn_over(&mut self, share: Option<f64>) -> Result<(), ContactError> {
+    fn turn_over(&mut self, it: &mut SeriesLine, share: Option<f64>) -> Result<(), ContactError> {
         self.changes += 1;
         if self.changes > CHANGES {
             return Err(ContactError::Unsuited { reason: "stick and slip change places" });
         }
-        self.share = share;
+        (self.share, self.last, self.slope) = (share, None, Self::quasistatic(it));
         Ok(())
     }
 
@@ -243,9 +270,9 @@ impl StickSearch {
             }
             if wrong == looked_at().count() {
                 it.tractions.slide = -slide;
-                self.turn_over(None)?;
+                self.turn_over(it, None)?;
             } else {
-                self.turn_over(Some(0.3))?;
+                self.turn_over(it, Some(0.3))?;
             }
             return Ok(false);
         }
@@ -254,7 +281,7 @@ impl StickSearch {
             if std::mem::replace(&mut self.torn, true) {
                 return Err(ContactError::Unsuited { reason: "more than friction where it sticks" });
             }
-            self.turn_over(None)?;
+            self.turn_over(it, None)?;
             return Ok(false);
         }
         if wrong > 0 {

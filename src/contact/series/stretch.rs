@@ -87,17 +87,13 @@ impl SeriesLine<'_> {
         self.slide_all();
     }
 
-    /// Makes the stretch that sticks longer by a factor, with a shear that differs from the present one and its root by the
-    /// second order of the change.
+    /// Makes the stretch that sticks longer by a factor, and its shear stronger, as that of Carter's solution is.
     pub fn restretch(&mut self, factor: f64) {
-        self.tractions.stick = self.tractions.stick.stretched(factor, self.upstream());
-    }
-
-    /// Change of the root per share of the patch that sticks as far as the tractions stay the same: to first order they do,
-    /// around a solution \[Pa].
-    pub fn root_by_share(&self) -> f64 {
-        let Tractions { pressure, stick, .. } = &self.tractions;
-        -stick.root_by_length(self.upstream()) * pressure.half_width / stick.half_width
+        let (upstream, Tractions { pressure, stick, .. }) = (self.upstream(), &mut self.tractions);
+        stick.half_width *= factor;
+        stick.centre = pressure.centre + upstream * (pressure.half_width - stick.half_width);
+        stick.terms.iter_mut().for_each(|term| *term *= factor);
+        self.place_shear();
     }
 
     /// Tractions of the stretch that sticks, with the smooth displacements `surface` of the friction of slip.
