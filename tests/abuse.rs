@@ -101,6 +101,8 @@ struct Master<'a> {
     calls: usize,
     steps: usize,
     discarded: usize,
+    /// True once a ramp may be given: the other way to give it is refused then.
+    ramped: bool,
     resets: usize,
 }
 
@@ -120,6 +122,7 @@ impl<'a> Master<'a> {
             calls: 0,
             steps: 0,
             discarded: 0,
+            ramped: false,
             resets: 0,
         }
     }
@@ -311,7 +314,10 @@ impl<'a> Master<'a> {
             text += &format!("{} = {value:?} ", variable.name);
         }
         let status = self.slave.set_reals(&references, &values);
-        let expected = expect(legal && Call::Set.legal(self.phase));
+        let mut expected = expect(legal && Call::Set.legal(self.phase));
+        if text.contains("_rate") && legal && std::mem::replace(&mut self.ramped, true) {
+            expected = Expect::Either;
+        }
         let silent = !self.is_early();
         self.check(format!("SetReal({text})"), status, expected, silent);
     }
@@ -386,7 +392,10 @@ impl<'a> Master<'a> {
         let legal = name != "wheel.omega" && order == 1 && value.is_finite();
         // A ramp that leaves the range is refused by the step.
         self.calm &= !legal;
-        let expected = expect(legal && Call::SetRealInputDerivatives.legal(self.phase));
+        let mut expected = expect(legal && Call::SetRealInputDerivatives.legal(self.phase));
+        if legal && std::mem::replace(&mut self.ramped, true) {
+            expected = Expect::Either;
+        }
         let status = self.slave.set_rate(name, order, value);
         self.check(format!("SetRealInputDerivatives({name}, {order}, {value:?})"), status, expected, true);
     }

@@ -237,7 +237,7 @@ fn wrong_arguments_end_with_code_2_and_say_what_is_possible() {
         (&["simulate", "--step", "-1"], &["--step = -1", "more than 0"]),
         (&["simulate", "--stop", "-1"], &["--stop = -1", "at least 0"]),
         (&["simulate", "--every", "0"], &["--every", "0"]),
-        (&["simulate", "--outputs", "contact.force_z"], &["contact.force_z", "contact.force_x"]),
+        (&["simulate", "--outputs", "contact.force_xx"], &["contact.force_xx", "contact.force_x"]),
         (&["simulate", "--scenario", &scenario], &["scenario.csv", "line 3", "drive.load = -5"]),
         (&["simulate", "--scenario", "absent.csv"], &["absent.csv", "No such file"]),
         (&["steady", "--creepage", "0:1"], &["0:1", "FROM:TO:COUNT"]),

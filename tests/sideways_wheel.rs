@@ -137,7 +137,7 @@ fn a_wheel_that_locks_with_an_angle_of_attack_slides_where_it_goes() {
     assert!((direction.rem_euclid(2.0 * std::f64::consts::PI) - last.contact_slip_direction).abs() < 1e-3);
 }
 
-/// What the outputs alone say about a run: works and impulses by the trapezoidal rule.
+/// Observation of a run from its outputs alone: works and impulses by the trapezoidal rule.
 fn observed(
     model: &Arc<Model>,
     mut inputs: Inputs,

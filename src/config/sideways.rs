@@ -1,4 +1,4 @@
-//! What contact with two directions, `contact.lateral`, goes with.
+//! Parameters with which contact in two directions, `contact.lateral`, is refused.
 
 use super::dependent::{ConfigError, Dependent};
 use super::table::Config;

@@ -36,7 +36,7 @@ parameters! {
                 "Shape of the tread besides the circle, fixed to the wheel and closed after a turn: shapes with parameters, or \
                  the name of a file, see docs/profiles.md; empty: round";
             1023 basic hub_inertia: f64 = 15.0, in "kg.m2", from 0.0 to 1e6, "Moment of inertia of that mass about the axle";
-            1204 basic lateral_mass: f64 = 0.0, in "kg", from 0.0 to 1e6,
+            1204 expert lateral_mass: f64 = 0.0, in "kg", from 0.0 to 1e6,
                 "Mass that moves sideways with the hub besides the wheel and wheel.hub_mass: what the wheelset adds; it counts with \
                  contact.lateral only, as all that follows here";
             1205 expert lateral_stiffness: f64 = 0.0, in "N/m" as "MN/m", from 0.0 to 1e15,

@@ -73,14 +73,14 @@ impl Tile {
         for (here, at) in self.edges.into_iter().zip([-1.0, 1.0]) {
             for (there, sign) in of.edges.into_iter().zip([at, -at]) {
                 let s: f64 = here - there;
+                let r = libm::hypot(x, s);
+                sum.growth -= sign * here * nu * if r > 0.0 { x / r } else { 0.0 };
                 if s == 0.0 {
                     continue;
                 }
-                let r = libm::hypot(x, s);
                 let steep = (libm::log(s.abs() + r) - logarithm) * s.signum();
                 sum.displacement -= sign * nu * x * steep;
                 sum.strain -= sign * nu * (steep - s / r);
-                sum.growth -= sign * here * nu * x / r;
             }
         }
         let width = self.width();

@@ -30,7 +30,7 @@ pub struct RigidWheel {
     pub inertia: PerAxis<f64>,
     /// Damper between the hub and the vehicle in y [N s/m per m].
     damping: f64,
-    /// What carries the contact in z.
+    /// Parts that carry the contact in z.
     pub sideways: Sideways,
     /// Speed of surface waves in its material [m/s].
     wave_speed: f64,

@@ -44,7 +44,7 @@ struct Mount {
     mass: f64,
 }
 
-/// What carries the contact sideways.
+/// Hub, tread and rail head that carry the contact sideways.
 #[derive(Clone, Copy, Debug)]
 pub struct Sideways {
     /// True if the contact has two directions.
@@ -104,7 +104,7 @@ impl Sideways {
         let known = |k: usize| {
             let Mount { stiffness, damping, mass } = self.mounts[k];
             let (of_deflection, of_velocity) = (motion.deflection[k].offset(td), motion.velocity[k].offset(td));
-            Answer {
+            MountAnswer {
                 mass,
                 compliance: match stiffness > 0.0 {
                     true => 1.0 / (mass * td.a0 + damping + stiffness / td.a0),
@@ -148,7 +148,7 @@ pub fn spin(drive: &Drive) -> Spin {
 
 /// Answer of a mount in a step: `m u̇ + d u + k q = u/compliance + known`, `u̇ = a0 u + offset`.
 #[derive(Clone, Copy)]
-struct Answer {
+struct MountAnswer {
     mass: f64,
     /// Zero if it is rigid.
     compliance: f64,
@@ -163,7 +163,7 @@ pub struct SideStep {
     /// Known part of the acceleration of the hub [m/s²].
     offset: f64,
     drive: AxisDrive,
-    answers: [Answer; 2],
+    answers: [MountAnswer; 2],
 }
 
 /// Velocities at the end of a step [m/s].
@@ -256,7 +256,7 @@ mod tests {
         Sideways { enabled: true, mass: 4e3, mounts: [mount(2e9, 4e4, 1e3), mount(1e9, 2e5, 1.5e3)] }
     }
 
-    /// What a run under a constant force or velocity of the hub leaves: energy, work on the hub, losses in dampers and contact
+    /// Balance of a run under a constant force or velocity of the hub: energy, work on the hub, losses in dampers and contact
     /// [J/m], impulse of hub and contact, and change of momentum [N s/m].
     struct Run {
         energy: f64,

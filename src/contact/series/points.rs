@@ -257,7 +257,7 @@ mod tests {
         assert!(worst < 2e-3 && most <= 12);
     }
 
-    /// What drives the half-planes of [`Rolling`].
+    /// Drive of the half-planes of [`Rolling`].
     #[derive(Clone, Copy, Debug)]
     enum Drive {
         Creepage(f64),
