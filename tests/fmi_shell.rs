@@ -321,7 +321,8 @@ fn life(dll: &libfmi::Fmi2Dll, host: Host, full: bool) -> Vec<Vec<u64>> {
 #[test]
 fn hosts_that_trap_round_and_flush_get_the_usual_results_and_their_environment_back() {
     let dll = load();
-    assert!(variables().len() > 1000);
+    // What this program itself makes at the first time would raise flags within a call.
+    assert!(variables().len() > 1000 && !slave::guid().is_empty());
     let usual = Host { traps: 0, rounding: 0, flags: 0, flush: false };
     for full in [false, true] {
         let expected = life(&dll, usual, full);
