@@ -132,7 +132,7 @@ def need_tbb():
 def unit(fmu, packed):
     """The FMU as masters want it: packed, extracted, described."""
     references = {name: variable.valueReference for name, variable in fmu.variables.items()}
-    parts = {"directory": fmu.directory, "description": fmu.description, "variables": fmu.variables}
+    parts = {"directory": fmu.directory, "description": fmu.description, "variables": fmu.variables, "places": fmu.places}
     return SimpleNamespace(path=packed, reference=references.__getitem__, variable=fmu.variable, **parts)
 
 

@@ -17,7 +17,7 @@ def test_an_item_that_is_none_is_refused_with_those_that_are(start):
 
 def test_a_profile_that_is_none_is_refused_with_those_that_are(start):
     wheel = start()
-    with pytest.raises(Refused, match="no profile 'presure'; it has x, pressure, shear, slip, temperature_wheel"):
+    with pytest.raises(Refused, match="no profile 'presure'; it has x, pressure, shear, slip, shear_z, slip_z, temperature_wheel"):
         wheel.profile("presure")
     for name in wheel.fmu.profiles():
         assert len(wheel.profile(name)) > 10

@@ -29,7 +29,7 @@ fn instantiation_with_wrong_arguments_gives_null_and_a_logged_reason() {
     refused(Arguments { visible: 255, ..Default::default() }, "visible = 255 ");
     refused(Arguments { logging: 3, ..Default::default() }, "loggingOn = 3 ");
     refused(Arguments { intermediate: vec![201], ..Default::default() }, "requiredIntermediateVariables");
-    assert_eq!(fmi3GetVersion().is_null(), false);
+    assert!(!fmi3GetVersion().is_null());
     let none = [
         unsafe_free(|| {
             fmi3InstantiateModelExchange(ptr::null(), ptr::null(), ptr::null(), 0, 0, ptr::null_mut(), None)

@@ -167,7 +167,7 @@ outputs! {
         "Lateral creepage 2 V_z/(V + r omega) with the lateral velocity of the hub; 0 at standstill";
     324 contact_spin: real "contact.spin", in "1/m", nominal 0.1,
         "Spin 2 sigma/(V + r omega), the angular velocity sigma about the normal clockwise from above positive; 0 at standstill";
-    325 contact_slip_direction: real "contact.slip_direction", in "rad" as "deg", from -3.1416 to 3.1416,
+    325 contact_slip_direction: real "contact.slip_direction", in "rad" as "deg", from -3.15 to 3.15,
         "Direction of the mean slip of the tread on the rail, from that of travel to the right positive; 0 where it sticks";
     326 contact_tread_slip_z: real "contact.tread_slip_z", in "m/s" as "mm/s", nominal 1e-2,
         "Lateral part of the mean slip velocity of the tread, to the right positive";
