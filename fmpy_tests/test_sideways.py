@@ -90,7 +90,7 @@ def test_the_page_has_arrows_of_shear_and_slip_of_every_line(start):
     along, across = (np.array(part, float) for part in lines["shear"])
     assert along.shape == across.shape == (6, 5) and (across[-1] < 0.0).all()
     assert np.array(lines["slip"], float).shape == (2, 6, 5) and lines["units"]["shear"] == "MPa"
-    straight = start(ELLIPSE).record()
+    straight = start({"preset": "railway_ellipse", "contact.lines": 5, "thermal.enabled": False}).record()
     assert "shear" not in film.of_run(run.of_dataset(straight.dataset()))["lines"]
 
 
@@ -113,16 +113,6 @@ def test_what_is_not_computed_is_refused_with_what_to_set(start, parameters, inp
 def test_wheelsets_of_trains_run_straight(fmu):
     with pytest.raises(Refused, match="contact.lateral: wheelsets of a train run straight"):
         whole_wheelset(fmu, None, {"contact.lateral": True})
-
-
-def test_an_angle_in_degrees_and_a_velocity_in_millimetres_are_told(start):
-    wheel = start(ELLIPSE, {"drive.contact_angle": 0.05})
-    with pytest.warns(UserWarning, match=r"drive.contact_angle = 1.4.*deg"):
-        wheel.set({"drive.contact_angle": 1.4})
-        wheel.step(1e-4)
-    with pytest.warns(UserWarning, match=r"drive.lateral_velocity = 40 .*mm/s"):
-        wheel.set({"drive.lateral_velocity": 40.0})
-        wheel.step(1e-6)
 
 
 def test_a_mass_that_moves_sideways_without_lateral_forces_is_told(start):
