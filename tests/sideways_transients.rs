@@ -123,13 +123,6 @@ fn random_transients_are_solved_within_the_cone_and_cost_some_steps() {
     check(20, 7);
 }
 
-/// Large number of them: minutes of CPU.
-#[test]
-#[ignore]
-fn ten_thousand_random_transients_are_solved() {
-    check(10_000, 5);
-}
-
 /// Forces along and across and spin moment over friction times load, times a metre.
 fn forces(spaces: &HalfSpaces, lines: &Lines) -> [f64; 3] {
     let sum = |of: &dyn Fn(&wheelrail::contact::Traction) -> f64| {

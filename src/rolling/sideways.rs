@@ -258,7 +258,7 @@ mod tests {
 
     /// Balance of a run under a constant force or velocity of the hub: energy, work on the hub, losses in dampers and contact
     /// [J/m], impulse of hub and contact, and change of momentum [N s/m].
-    struct Run {
+    struct RunBalance {
         energy: f64,
         work: f64,
         lost: f64,
@@ -267,7 +267,7 @@ mod tests {
         deflections: [f64; 2],
     }
 
-    fn run(sideways: &Sideways, drive: AxisDrive, steps: usize, end: f64) -> Run {
+    fn run(sideways: &Sideways, drive: AxisDrive, steps: usize, end: f64) -> RunBalance {
         let dt = end / steps as f64;
         let (mut hub, mut motion) = (History::constant(0.0), SideMotion::default());
         let (mut driving, mut resisting) = (History::default(), History::default());
@@ -296,7 +296,7 @@ mod tests {
             before = dt;
         }
         let [tread, _] = sideways.mounts;
-        Run {
+        RunBalance {
             energy: 0.5 * sideways.mass * hub.now * hub.now + sideways.energy(hub.now, &motion),
             work: out[0],
             lost: out[1],

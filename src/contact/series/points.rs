@@ -259,7 +259,7 @@ mod tests {
 
     /// Drive of the half-planes of [`Rolling`].
     #[derive(Clone, Copy, Debug)]
-    enum Drive {
+    enum RollingDrive {
         Creepage(f64),
         /// Force over that of sliding.
         Force(f64),
@@ -293,11 +293,11 @@ mod tests {
 
         /// A step on a patch of half-width `half` with speed 1, or one of the duration `way` at rest; number of changes of the
         /// states, or `None` if they go in circles.
-        fn advance(&mut self, (way, half, rolls): (f64, f64, bool), drive: Drive) -> Option<usize> {
+        fn advance(&mut self, (way, half, rolls): (f64, f64, bool), drive: RollingDrive) -> Option<usize> {
             let time = formula(way, self.way);
             let places = self.tables.slips.map(|t| half * t);
             let [now, before] = self.past.each_ref().map(|shear| Self::displacement(shear, &places));
-            let given = if let Drive::Creepage(creepage) = drive { creepage } else { 0.0 };
+            let given = if let RollingDrive::Creepage(creepage) = drive { creepage } else { 0.0 };
             let convection = if rolls { 1.0 } else { 0.0 };
             let problem = PointProblem {
                 by_shear: self.tables.slips_by_shear([convection, -time.a0 * half / PI], [half, libm::log(REACH)]),
@@ -311,8 +311,8 @@ mod tests {
             loop {
                 let shears = problem.shears(&self.states)?;
                 let further = match drive {
-                    Drive::Creepage(_) => 0.0,
-                    Drive::Force(share) => {
+                    RollingDrive::Creepage(_) => 0.0,
+                    RollingDrive::Force(share) => {
                         let inertia = MASS * time.a0;
                         let load = share * FRAC_PI_2 * half * half - inertia * self.creepage;
                         (force(&shears[0]) - load) / (force(&shears[1]) + inertia)
@@ -352,8 +352,11 @@ mod tests {
                 let way = half * libm::exp(random() * libm::log(1e3)) / 100.0;
                 half = if random() < 0.3 { (0.2 + 1.8 * random()).sqrt() } else { half };
                 let (held, rolls) = (random() < 0.3, random() < 0.8);
-                let drive =
-                    if held { Drive::Force(1.8 * random() - 0.9) } else { Drive::Creepage(3.0 * random() - 1.5) };
+                let drive = if held {
+                    RollingDrive::Force(1.8 * random() - 0.9)
+                } else {
+                    RollingDrive::Creepage(3.0 * random() - 1.5)
+                };
                 match rolling.advance((way, half, rolls), drive) {
                     Some(changes) => (most, sum, count) = (most.max(changes), sum + changes, count + 1),
                     None => failed += 1,
