@@ -21,6 +21,11 @@ impl SeriesLine<'_> {
         self.problem.spin.velocity(self.rigid)
     }
 
+    /// Speed of a motion that counts besides rolling \[m/s]: to the side, and over the patch within a step.
+    pub fn speed_to_the_side(&self) -> f64 {
+        self.rigid.lateral.abs() + self.problem.line.time.a0.abs() * self.tractions.pressure.half_width
+    }
+
     /// Velocity across of the wheel surface relative to that of the rail at x [m/s]; without the shear of the line itself
     /// if it is not `sheared`.
     pub fn lateral_slip<const N: usize>(&self, x: &[f64; N], sheared: bool) -> [f64; N] {

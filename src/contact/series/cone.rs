@@ -9,6 +9,7 @@
 
 use super::across::Vectors;
 use super::chebyshev::Arch;
+use super::contact::SeriesContact;
 use super::equations::eliminate;
 use super::points::{COUNT, PointTables};
 use super::series_line::SeriesLine;
@@ -26,11 +27,11 @@ pub const SLIPS: usize = 2 * POINTS;
 const UNKNOWNS: usize = 2 * COUNT;
 /// Slip times r over the radius of the disc at which half of the correction counts \[1].
 const BEGINNING: f64 = 0.05;
-/// Shear over friction that is as large \[1], and the slip times r over it that is asked for there in a search.
-const AT_LIMIT: f64 = 1.0 - 1e-9;
-const ASKED: f64 = 1e-2;
+/// Way of a step over the half-width of the patch from which on slips stand half a point upstream \[1].
+const WHOLE_WAY: f64 = 0.03;
 
 /// Slips at places that belong to the points.
+#[derive(Clone)]
 struct SlipRows {
     /// Slips along and across by the shear of every point in this direction [m/s/Pa].
     by_shear: [[[f64; COUNT]; COUNT]; 2],
@@ -41,9 +42,12 @@ struct SlipRows {
 }
 
 /// The tangential problem of one line.
+#[derive(Clone)]
 pub struct ConeProblem {
     /// Upstream of the shear, and in its place.
     rows: [SlipRows; 2],
+    /// Change of the slip of every point by its shear [m/s/Pa], the larger one of both directions.
+    least: [f64; COUNT],
     /// Moments of the shear of every point with the powers of the places \[m].
     moments: [[f64; COUNT]; POINTS],
     /// Friction that points bear, and that at the peak of the pressure \[Pa].
@@ -65,9 +69,8 @@ enum PointState {
 /// States that friction asks of all points of a line.
 pub struct ConeVerdict {
     points: [PointState; COUNT],
-    /// Largest violation of friction over its peak \[1], and the sum of the squares of all.
+    /// Largest violation of friction over its peak \[1].
     pub largest: f64,
-    pub squares: f64,
 }
 
 /// Shear of a line in the linearised law: under the known slip, then what a unit of each coefficient of the polynomials of
@@ -78,6 +81,19 @@ pub struct ConeAnswer {
 }
 
 impl SlipRows {
+    /// Mean with others, which have a `share`.
+    fn mean(mut self, other: &Self, share: f64) -> Self {
+        fn mix(values: &mut [f64], others: &[f64], share: f64) {
+            values.iter_mut().zip(others).for_each(|(value, other)| *value += share * (other - *value));
+        }
+        for (by, other) in self.by_shear.iter_mut().zip(&other.by_shear) {
+            mix(by.as_flattened_mut(), other.as_flattened(), share);
+        }
+        mix(self.known.as_flattened_mut(), other.known.as_flattened(), share);
+        mix(self.powers.as_flattened_mut(), other.powers.as_flattened(), share);
+        self
+    }
+
     fn slips(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
         std::array::from_fn(|c| {
             let mut slips = self.known[c];
@@ -107,13 +123,25 @@ impl SeriesLine<'_> {
             known: known.map(|known| std::array::from_fn(|i| known[set * COUNT + i])),
             powers: self.powers_at(&places[set]),
         };
-        let rows = [rows(0, &constants.of_points), rows(1, &constants.in_place)];
+        let in_place = rows(1, &constants.in_place);
+        let rows = [rows(0, &constants.of_points).mean(&in_place, 1.0 - self.way_upstream()), in_place];
+        let least = |i: usize| rows[0].by_shear.iter().map(|by| by[i][i].abs()).fold(f64::MIN_POSITIVE, f64::max);
+        let least = std::array::from_fn(least);
         // The rule of Gauss and Chebyshev has its places at the points.
         let part = PI / (COUNT + 1) as f64;
         let weights: [f64; COUNT] = std::array::from_fn(|i| half * part * libm::sin((i + 1) as f64 * part));
         let moments = rows[1].powers.map(|power| std::array::from_fn(|i| weights[i] * power[i]));
         let bears = self.tractions.pressure.density(&places[1]).map(|p| self.friction * p.max(0.0));
-        ConeProblem { rows, moments, bears, most: self.friction * terms[0] }
+        ConeProblem { rows, least, moments, bears, most: self.friction * terms[0] }
+    }
+
+    /// Share of the way to half a point upstream that the slips stand from their shear: in steps much shorter than the
+    /// patch the slip is that of a body at rest.
+    fn way_upstream(&self) -> f64 {
+        let (rate, half) = (self.problem.line.time.a0.abs(), self.tractions.pressure.half_width);
+        let speed = 0.5 * (self.rigid.travel + self.rim_velocity()).abs();
+        let whole = WHOLE_WAY * rate * half;
+        if speed < whole { speed / whole } else { 1.0 }
     }
 
     /// Slips by the shear of points with the flexibility `kernel` \[m/s/Pa].
@@ -144,24 +172,12 @@ impl ConeProblem {
         within
     }
 
-    /// Slips that a shear asks for: none where it sticks, and a little against it where it is as large as friction; less
-    /// those that it has with the slip by all else as polynomials [m/s].
-    pub fn missing(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
-        let slips = self.rows[0].slips(shear, others);
-        std::array::from_fn(|c| {
-            std::array::from_fn(|i| match libm::hypot(shear[0][i], shear[1][i]) >= AT_LIMIT * self.bears[i] {
-                true => -ASKED * self.least(i) * shear[c][i] - slips[c][i],
-                false => -slips[c][i],
-            })
-        })
-    }
-
     /// Correction of the slip by the difference between that in the place of the shear and that upstream, where a solution
     /// slips [m/s].
     pub fn correction(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
         let [upstream, in_place] = self.rows.each_ref().map(|rows| rows.slips(shear, others));
         let weight = |i: usize| {
-            let ahead = libm::hypot(upstream[0][i], upstream[1][i]) / self.least(i);
+            let ahead = libm::hypot(upstream[0][i], upstream[1][i]) / self.least[i];
             let sum = ahead + BEGINNING * self.bears[i];
             if sum > 0.0 { ahead / sum } else { 0.0 }
         };
@@ -169,32 +185,44 @@ impl ConeProblem {
         std::array::from_fn(|c| std::array::from_fn(|i| weights[i] * (in_place[c][i] - upstream[c][i])))
     }
 
-    /// Adds a share of given slips to the known ones.
-    pub fn add(&mut self, share: f64, slips: &Vectors) {
+    /// Adds given slips to the known ones.
+    pub fn add(&mut self, slips: &Vectors) {
         let known = self.rows[0].known.as_flattened_mut();
-        known.iter_mut().zip(slips.as_flattened()).for_each(|(known, slip)| *known += share * slip);
+        known.iter_mut().zip(slips.as_flattened()).for_each(|(known, slip)| *known += slip);
     }
 
-    /// Change of the slip of a point by its shear [m/s/Pa], the larger one of both directions.
-    fn least(&self, i: usize) -> f64 {
-        self.rows[0].by_shear.iter().map(|by| by[i][i].abs()).fold(f64::MIN_POSITIVE, f64::max)
+    /// Force [N/m] by which the points resist a unit of slip, each for itself [kg/(m s)].
+    pub fn resistance(&self) -> f64 {
+        self.moments[0].iter().zip(&self.least).map(|(weight, least)| weight / least).sum()
+    }
+
+    /// Draws the shear to the given one, `strength` times as much as the slip of a point resists its own shear.
+    pub fn draw(&mut self, strength: f64, shear: &Vectors) {
+        let SlipRows { by_shear, known, .. } = &mut self.rows[0];
+        for ((by_shear, known), shear) in by_shear.iter_mut().zip(known).zip(shear) {
+            for (i, (least, shear)) in self.least.iter().zip(shear).enumerate() {
+                by_shear[i][i] += strength * least;
+                known[i] -= strength * least * shear;
+            }
+        }
+        self.least.iter_mut().for_each(|least| *least *= 1.0 + strength);
     }
 
     /// States that friction asks for under a shear and the slip by all else as polynomials.
     pub fn verdict(&self, shear: &Vectors, others: &[f64; SLIPS]) -> ConeVerdict {
         let slips = self.rows[0].slips(shear, others);
-        let (mut points, mut largest, mut squares) = ([PointState::Stick; COUNT], 0.0_f64, 0.0);
+        let (mut points, mut largest) = ([PointState::Stick; COUNT], 0.0_f64);
         for (i, point) in points.iter_mut().enumerate() {
             let (state, violation) = self.judge(i, [shear[0][i], shear[1][i]], [slips[0][i], slips[1][i]]);
             let violation = violation / self.most.max(f64::MIN_POSITIVE);
-            (*point, largest, squares) = (state, largest.max(violation), squares + violation * violation);
+            (*point, largest) = (state, largest.max(violation));
         }
-        ConeVerdict { points, largest, squares }
+        ConeVerdict { points, largest }
     }
 
     /// State that friction asks of a point with the shear q and the slip s, and its violation \[Pa].
     fn judge(&self, i: usize, q: [f64; 2], s: [f64; 2]) -> (PointState, f64) {
-        let (bears, least) = (self.bears[i], self.least(i));
+        let (bears, least) = (self.bears[i], self.least[i]);
         let held = [0, 1].map(|c| q[c] - s[c] / least);
         let size = libm::hypot(held[0], held[1]);
         if size <= bears {
@@ -297,19 +325,10 @@ fn joined([along, across]: [ByPowers; 2]) -> [f64; SLIPS] {
     std::array::from_fn(|k| if k < POINTS { along[k] } else { across[k - POINTS] })
 }
 
-impl Answer<SLIPS> for ConeAnswer {
-    fn moments(&self) -> ([f64; SLIPS], [[f64; SLIPS]; SLIPS]) {
-        let [known, by @ ..] = self.moments;
-        (known, by)
-    }
-
-    fn forces(&self) -> ([f64; 2], [[f64; 2]; SLIPS]) {
-        let [known, by @ ..] = self.moments.map(|moments| [moments[0], moments[POINTS]]);
-        (known, by)
-    }
-
-    fn between(contact: &super::contact::SeriesContact, [at, by]: [usize; 2]) -> [[f64; SLIPS]; SLIPS] {
-        let (along, line) = (contact.slips_between([at, by]), &contact.lines[at]);
+impl SeriesContact<'_> {
+    /// Slips of a line along and across by unit moments of the shear of another one.
+    pub fn slips_askew(&self, [at, by]: [usize; 2]) -> [[f64; SLIPS]; SLIPS] {
+        let (along, line) = (self.slips_between([at, by]), &self.lines[at]);
         let [rate, strain] = line.slip_of_field();
         let patch = line.problem.line.patch;
         let [across, askew]: [ByMoments; 2] =
@@ -324,6 +343,18 @@ impl Answer<SLIPS> for ConeAnswer {
             true => joined([along[n], askew[n]]),
             false => joined([askew[n - POINTS], across[n - POINTS]]),
         })
+    }
+}
+
+impl Answer<SLIPS> for ConeAnswer {
+    fn moments(&self) -> ([f64; SLIPS], [[f64; SLIPS]; SLIPS]) {
+        let [known, by @ ..] = self.moments;
+        (known, by)
+    }
+
+    fn forces(&self) -> ([f64; 2], [[f64; 2]; SLIPS]) {
+        let [known, by @ ..] = self.moments.map(|moments| [moments[0], moments[POINTS]]);
+        (known, by)
     }
 
     fn by_motion(line: &SeriesLine, axis: Axis) -> [f64; SLIPS] {

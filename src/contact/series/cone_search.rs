@@ -4,7 +4,7 @@
 use super::across::Vectors;
 use super::chebyshev::{Arch, TERMS};
 use super::cone::{ConeProblem, ConeVerdict};
-use super::cone_newton::{Newton, UNSEEN};
+use super::cone_newton::Newton;
 use super::contact::SeriesContact;
 use super::places::total;
 use super::points::COUNT;
@@ -15,28 +15,35 @@ use crate::contact::error::ContactError;
 
 /// Iterations of normal and tangential problem.
 const MOST: usize = 40;
-/// Violation of friction that ends Newton's method \[1], and the share of the last change of the pressure that does.
+/// Iterations of the normal problem at most between those of the tangential one, which take ten times as long, and the
+/// relative change that ends them \[1].
+const PRESSED: usize = 8;
+const CLOSE: f64 = 1e-10;
+/// Violation of friction that ends Newton's method \[1], and the share of that before which does: pressures that change
+/// with the shear bring back as much.
 const TOLERANCE: f64 = 1e-12;
 const ROUGHEST: f64 = 1e-2;
-const SHARE: f64 = 0.03;
-/// Share of the correction below which a search does without \[1].
-const LEAST_SHARE: f64 = 0.3;
+const SHARE: f64 = 1e-3;
 
 /// Finds tractions and motions of lines that slip along and across.
 pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let mut search = ConeSearch::new(contact);
     search.write(contact);
-    let (mut normal, mut settling) = (contact.press()?, Settling::new(contact));
-    let mut moved = f64::INFINITY;
+    let (mut normal, mut settling) = (contact.press_under_shear(PRESSED, CLOSE)?, Settling::new(contact));
+    let (mut moved, mut last) = (f64::INFINITY, None);
     for _ in 0..MOST {
         let before = Motions::of(contact);
-        let change = search.advance(contact, [normal, moved])?;
+        let violation = search.advance(contact, moved)?;
         moved = before.moved(contact);
-        if settling.is_last(normal, moved.max(change)) {
+        // The next round changes as much less than this one as this one less than the last.
+        let change = moved.max(violation);
+        let next = last.map_or(change, |last: f64| change * (change / last).min(1.0));
+        last = Some(change.max(f64::MIN_POSITIVE));
+        if settling.is_last(normal, next) {
             search.finish(contact);
             return Ok(());
         }
-        normal = contact.press()?;
+        normal = contact.press_under_shear(PRESSED, CLOSE)?;
     }
     Err(ContactError::Unsuited { reason: "normal contact and that of points along and across do not settle" })
 }
@@ -52,8 +59,6 @@ struct ConeSearch {
     most: Vec<f64>,
     /// True until a first correction has been found.
     first: bool,
-    /// Share of the correction: whole but where no shear is found with that.
-    share: f64,
 }
 
 impl ConeSearch {
@@ -72,7 +77,6 @@ impl ConeSearch {
             states: vec![[0; COUNT]; contact.lines.len()],
             most: most.collect(),
             first: true,
-            share: 1.0,
         }
     }
 
@@ -86,9 +90,9 @@ impl ConeSearch {
         contact.displace();
     }
 
-    /// Finds shear and motions under the present pressures, the last change of which was `normal`, while motions have `moved`
-    /// in the last round; returns the largest violation of friction before, none where it has stayed unseen.
-    fn advance(&mut self, contact: &mut SeriesContact, [normal, moved]: [f64; 2]) -> Result<f64, ContactError> {
+    /// Finds shear and motions under the present pressures, while motions have `moved` in the last round; returns the
+    /// largest violation of friction before.
+    fn advance(&mut self, contact: &mut SeriesContact, moved: f64) -> Result<f64, ContactError> {
         let mut problems = contact.cone_problems();
         for (k, (line, problem)) in contact.lines.iter().zip(&problems).enumerate() {
             let (now, most) = (line.friction * line.tractions.pressure.terms[0], self.most[k]);
@@ -98,39 +102,30 @@ impl ConeSearch {
             }
             self.most[k] = now;
         }
-        let tolerance = (SHARE * normal).clamp(TOLERANCE, ROUGHEST);
+        let ends = |newton: &Newton| (SHARE * newton.largest()).clamp(TOLERANCE, ROUGHEST);
         let moved = moved > TOLERANCE && contact.free_axes().next().is_some();
         let mut newton = Newton::new(contact, &mut problems);
         newton.take(contact, &self.uncorrected, self.uncorrected_motion);
         let mut violation = newton.largest();
-        newton.run(contact, tolerance, moved)?;
-        let left = newton.largest();
+        newton.run(contact, ends(&newton), moved)?;
         self.uncorrected.clone_from(&newton.shears);
-        let (motion, found, corrections) = (newton.rigid, newton.now(), newton.corrections());
-        newton.correct(self.share, &corrections);
-        if !std::mem::replace(&mut self.first, false) {
-            newton.take(contact, &self.shears, PerAxis::default());
+        let motion = newton.rigid;
+        newton.correct(&newton.corrections());
+        // At first the shear of the step before may be farther than that without the correction.
+        let without = newton.now();
+        newton.take(contact, &self.shears, PerAxis::default());
+        if std::mem::replace(&mut self.first, false) && newton.largest() > without.largest {
+            newton.restart(&without);
         }
         violation = violation.max(newton.largest());
-        while let Err(error) = newton.run(contact, tolerance, moved) {
-            if self.share == 0.0 {
-                return Err(error);
-            }
-            newton.correct(-self.share, &corrections);
-            self.share = if self.share > LEAST_SHARE { 0.5 * self.share } else { 0.0 };
-            newton.correct(self.share, &corrections);
-            newton.restart(&found);
-        }
+        newton.run(contact, ends(&newton), moved)?;
         self.uncorrected_motion = PerAxis::from_fn(|axis| motion[axis] - newton.rigid[axis]);
-        let left = left.max(newton.largest());
         self.shears = newton.shears;
         self.states = newton.verdicts.iter().map(ConeVerdict::states).collect();
         let rigid = newton.rigid;
         contact.lines.iter_mut().for_each(|line| line.rigid = rigid);
         self.write(contact);
-        // What is left unseen stays from round to round.
-        let stays = left > tolerance && violation <= UNSEEN[1];
-        Ok(if stays { 0.0 } else { violation })
+        Ok(violation)
     }
 
     /// Takes the slips of the solution.

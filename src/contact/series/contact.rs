@@ -36,15 +36,20 @@ pub struct SeriesContact<'a> {
     pub system: DenseSystem,
     /// Steps of Newton's method so far.
     pub newton_steps: usize,
+    /// Times that a patch seemed to open.
+    pub opened: usize,
+    /// Resistance of motions that are drawn to others [kg/(m s), kg m/s], and how far those are from the present ones.
+    pub drawn: PerAxis<[f64; 2]>,
 }
 
 impl<'a> SeriesContact<'a> {
     /// Contact of at least one line.
     pub fn new(lines: Vec<SeriesLine<'a>>, rigid: &'a PerAxis<RigidMotion>, relaid: Relaid<'a>) -> Self {
         relaid.problem.layouts.inspect(|layouts| layouts.begin());
-        let (pulls, moments, system) = Default::default();
+        let (pulls, moments, system, drawn) = Default::default();
         let by_powers = displaced_by_powers(&lines[0].problem.line.bodies, &lines[0].constants.points);
-        let mut contact = Self { lines, rigid, pulls, moments, by_powers, relaid, system, newton_steps: 0 };
+        let mut contact =
+            Self { lines, rigid, pulls, moments, by_powers, relaid, system, newton_steps: 0, opened: 0, drawn };
         contact.share_pulls();
         contact
     }

@@ -92,7 +92,7 @@ fn next(contact: &SeriesContact, problem: &ContactProblem, states: PerAxis<Brake
 /// Finds tractions along and across and motions, or motions without tractions where no line touches.
 fn sideways(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let Err(error) = cone_search::solve(contact) else { return Ok(()) };
-    if open::solve(contact)? { Ok(()) } else { Err(error) }
+    if matches!(open::solve(contact), Ok(true)) { Ok(()) } else { Err(error) }
 }
 
 /// Finds tractions and motions, and the friction coefficients that the laws of all lines give to their slips.

@@ -12,6 +12,8 @@ use std::f64::consts::PI;
 
 /// Largest factor by which an iteration changes the load.
 const LARGEST_FACTOR: f64 = 4.0;
+/// Times that a patch may seem to open, at most.
+const MOST_OPENED: usize = 6;
 
 /// Gap in the middle of a line, and how it depends on loads.
 pub struct MiddleGap {
@@ -130,19 +132,24 @@ impl SeriesContact<'_> {
             (change, -(gap * -balance_load + left * by_load) / determinant)
         };
         let by_height = if motion.target().is_some() { 1.0 } else { by_height };
+        let mut opens = false;
         for ((line, middle), factor) in self.lines.iter().zip(&middles).zip(factors) {
             let own = match self.lines.len() {
                 1 => change / line.problem.line.share,
                 _ => -(middle.gap + smooth * change + by_height * rise) / middle.own,
             };
             *factor = 1.0 + own / line.load();
-            if !(*factor > 0.0 && factor.is_finite()) {
+            // Where nothing else takes the contact over the search goes on: a load may fall to a part of itself at once.
+            opens |= *factor <= 0.0;
+            let shrinks = line.is_sideways() && self.opened < MOST_OPENED;
+            if !(factor.is_finite() && (*factor > 0.0 || shrinks)) {
                 return Err(ContactError::Unsuited { reason: "the patch opens" });
             }
             *factor = factor.clamp(1.0 / LARGEST_FACTOR, LARGEST_FACTOR);
         }
         let height = motion.target().unwrap_or(first.rigid.height + rise);
         self.lines.iter_mut().for_each(|line| line.rigid.height = height);
+        self.opened += usize::from(opens);
         Ok(())
     }
 }

@@ -17,7 +17,7 @@ pub fn solve(contact: &mut SeriesContact) -> Result<bool, ContactError> {
     contact.lines.iter_mut().for_each(SeriesLine::open);
     contact.displace();
     for _ in 0..ROUNDS {
-        contact.share::<SLIPS, ConeAnswer>(&[])?;
+        contact.share::<SLIPS, ConeAnswer>(&[], |_, _| Default::default())?;
         contact.rise();
         contact.displace();
         contact.lines.iter_mut().for_each(SeriesLine::approach);

@@ -46,13 +46,7 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
         line.place_shear();
     }
     contact.displace();
-    let mut normal = contact.press()?;
-    for _ in 1..WARM {
-        if normal < CLOSE {
-            break;
-        }
-        normal = contact.press()?;
-    }
+    let mut normal = contact.press_under_shear(WARM, CLOSE)?;
     let (mut search, mut settling) = (Search::new(contact), Settling::new(contact));
     // Normal and tangential problem improve each other by turns.
     for _ in 0..MOST {
@@ -63,6 +57,21 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
         normal = contact.press()?;
     }
     Err(ContactError::Unsuited { reason: "normal and tangential contact do not settle" })
+}
+
+impl SeriesContact<'_> {
+    /// Improves the pressure under the present shear at `most` times, until its relative change is `close` enough \[1];
+    /// returns the last one.
+    pub fn press_under_shear(&mut self, most: usize, close: f64) -> Result<f64, ContactError> {
+        let mut change = self.press()?;
+        for _ in 1..most {
+            if change < close {
+                break;
+            }
+            change = self.press()?;
+        }
+        Ok(change)
+    }
 }
 
 /// When iterations end.
@@ -145,7 +154,8 @@ pub struct Motions {
 impl Motions {
     pub fn of(contact: &SeriesContact) -> Self {
         let scale = |it: &SeriesLine| {
-            it.speed() * it.friction.max(1e-6) * it.tractions.pressure.half_width / it.problem.line.surfaces.radius
+            let speed = it.speed() + if it.is_sideways() { it.speed_to_the_side() } else { 0.0 };
+            speed * it.friction.max(1e-6) * it.tractions.pressure.half_width / it.problem.line.surfaces.radius
         };
         let scale = contact.lines.iter().map(scale).fold(0.0, f64::max);
         Self { rigid: contact.lines[0].rigid, scale }

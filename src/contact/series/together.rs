@@ -24,7 +24,7 @@ impl SeriesContact<'_> {
         for (line, half) in self.lines.iter().zip(halves) {
             stretches.push(half.map(|_| line.stretch(&surface)).transpose()?);
         }
-        let slips = self.share(&stretches)?;
+        let slips = self.share(&stretches, |contact, lines| contact.slips_between(lines))?;
         for (((line, stretch), slip), root) in self.lines.iter_mut().zip(&stretches).zip(&slips).zip(roots) {
             *root = stretch.as_ref().map_or(0.0, |stretch| line.take(&stretch.tractions(slip)));
             line.place_shear();
@@ -43,7 +43,7 @@ impl SeriesContact<'_> {
         if self.free_axes().next().is_none() {
             return Ok(());
         }
-        self.share::<POINTS, Stretch>(&[])?;
+        self.share::<POINTS, Stretch>(&[], |_, _| Default::default())?;
         self.displace();
         Ok(())
     }
@@ -58,9 +58,6 @@ pub trait Answer<const D: usize> {
 
     /// Forces [N/m] along and across under the known slip, and those that a unit of each coefficient takes away.
     fn forces(&self) -> ([f64; 2], [[f64; 2]; D]);
-
-    /// Slips of a line by unit moments of the shear of another one.
-    fn between(contact: &SeriesContact, lines: [usize; 2]) -> [[f64; D]; D];
 
     /// Slip of a line by a unit of a motion.
     fn by_motion(line: &SeriesLine, axis: Axis) -> [f64; D];
@@ -80,10 +77,6 @@ impl Answer<POINTS> for Stretch {
         (known, by)
     }
 
-    fn between(contact: &SeriesContact, lines: [usize; 2]) -> ByMoments {
-        contact.slips_between(lines)
-    }
-
     fn by_motion(line: &SeriesLine, axis: Axis) -> ByPowers {
         line.slip_by_motion(axis)
     }
@@ -95,10 +88,11 @@ impl Answer<POINTS> for Stretch {
 
 impl SeriesContact<'_> {
     /// Finds the motions that are not prescribed, and the slips of all lines that stick by all that the known slip does
-    /// not contain, as polynomials.
+    /// not contain, as polynomials; `between` gives the slips of a line by unit moments of the shear of another one.
     pub fn share<const D: usize, A: Answer<D>>(
         &mut self,
         stretches: &[Option<A>],
+        between: impl Fn(&Self, [usize; 2]) -> [[f64; D]; D],
     ) -> Result<[[f64; D]; MOST_LINES], ContactError> {
         let (count, axes) = (D * sticking(stretches).count(), self.free_axes());
         let mut system = std::mem::take(&mut self.system);
@@ -107,7 +101,7 @@ impl SeriesContact<'_> {
         for (column, (by, stretch)) in sticking(stretches).enumerate() {
             let ((known, moments), (force, forces)) = (stretch.moments(), stretch.forces());
             for (row, (at, _)) in sticking(stretches).enumerate() {
-                let between = A::between(self, [at, by]);
+                let between = between(self, [at, by]);
                 let (known, slips) =
                     (polynomial(&between, &known), moments.map(|moments| polynomial(&between, &moments)));
                 for p in 0..D {
@@ -160,6 +154,9 @@ impl SeriesContact<'_> {
             for (column, other) in self.free_axes().enumerate() {
                 coefficients[count + column] = self.inertia(axis, other) * self.rigid[other].gain;
             }
+            let [resistance, way] = self.drawn[axis];
+            coefficients[count + row] += resistance;
+            *side += resistance * way;
         }
     }
 
