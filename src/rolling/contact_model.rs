@@ -89,7 +89,7 @@ impl ContactModel {
             nominal_load: config.model.nominal_load,
             nominal_half_width: mechanics::nominal_half_width(config),
             width: config.width(),
-            yield_pressure: match config.physics.yielding {
+            yield_pressure: match config.yields() {
                 true => INDENTATION * config.material.yield_strength,
                 false => f64::INFINITY,
             },

@@ -64,7 +64,8 @@ pub fn solve<R>(
 fn check_layers(contact: &SeriesContact) -> Result<(), ContactError> {
     let bends = |line: &SeriesLine| {
         let half_width = line.before.tractions.pressure.half_width;
-        line.layers.as_ref().is_some_and(|layers| bends(layers, &line.problem, half_width, UNRESOLVED))
+        !line.is_sideways()
+            && line.layers.as_ref().is_some_and(|layers| bends(layers, &line.problem, half_width, UNRESOLVED))
     };
     match contact.lines.iter().any(bends) {
         true => Err(ContactError::Unsuited { reason: "the pressure cannot follow a hot layer" }),

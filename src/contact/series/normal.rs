@@ -4,7 +4,7 @@ use super::constants::Constants;
 use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
 use super::surface::{answer, dot};
-use super::tables::{PRESSURE, SMOOTH};
+use super::tables::{PRESSURE, SLOPE, SMOOTH};
 use crate::axes::Axis;
 use crate::contact::error::ContactError;
 use crate::linalg::POINTS;
@@ -41,15 +41,19 @@ impl SeriesLine<'_> {
         let slope = |x: f64| x / (radius * radius - x * x).sqrt() + gap.slope(x) - self.rim_angle;
         let places = tables.closed.map(|t| centre + half_width * t);
         let slopes = places.map(slope);
-        let warm = self.layers.as_ref().map_or([0.0; SMOOTH], |layers| std::array::from_fn(|n| layers.slope[n]));
-        let series: [f64; SMOOTH] = std::array::from_fn(|n| {
-            let sum: f64 = slopes.iter().zip(&tables.closed_terms[n]).map(|(s, t)| s * t).sum();
-            sum * if n == 0 { 1.0 } else { 2.0 } / SMOOTH as f64 + warm[n] / half_width
+        let warm = self.layers.as_ref().map_or([0.0; SLOPE], |layers| layers.slope);
+        let series: [f64; SLOPE] = std::array::from_fn(|n| {
+            let smooth = tables.closed_terms.get(n).map_or(0.0, |terms| {
+                let sum: f64 = slopes.iter().zip(terms).map(|(s, t)| s * t).sum();
+                sum * if n == 0 { 1.0 } else { 2.0 } / SMOOTH as f64
+            });
+            smooth + warm[n] / half_width
         });
         let kernel = self.problem.line.kernel.normal.factor;
+        let count = self.pressure_terms();
         let pressure = &mut self.tractions.pressure;
-        pressure.count = PRESSURE;
-        for k in 0..PRESSURE {
+        pressure.count = count;
+        for k in 0..count {
             pressure.terms[k] = series[k + 1] / (2.0 * PI * kernel);
         }
         let shift = -series[0] * radius;
@@ -57,6 +61,11 @@ impl SeriesLine<'_> {
             return Err(ContactError::Unsuited { reason: "the patch moves by more than its width" });
         }
         Ok(shift)
+    }
+
+    /// Number of the terms of the pressure: lines that no grid takes over follow all that is known of hot layers.
+    fn pressure_terms(&self) -> usize {
+        if self.is_sideways() && self.layers.is_some() { SLOPE - 1 } else { PRESSURE }
     }
 
     /// Gap in the middle under the present load.
@@ -77,7 +86,7 @@ impl SeriesLine<'_> {
         let moved = shift.abs() / pressure.half_width;
         pressure.centre += shift;
         pressure.half_width *= factor.sqrt();
-        pressure.terms[..PRESSURE].iter_mut().for_each(|p| *p *= factor.sqrt());
+        pressure.terms[..pressure.count].iter_mut().for_each(|p| *p *= factor.sqrt());
         self.place_pressure();
         self.place_shear();
         (factor - 1.0).abs().max(moved)

@@ -57,21 +57,18 @@ impl SeriesSolver {
     /// Refuses problems in which a patch is not smooth, or whose past the series cannot carry.
     fn check(line: &LineProblem) -> Result<(), ContactError> {
         let (surfaces, placement, limits) = (line.surfaces, &line.placement, &line.limits);
-        let refuse = |reason: &'static str, sideways: &'static str| match line.is_sideways() {
-            false => Err(ContactError::Unsuited { reason }),
-            true => Err(ContactError::Sideways { reason: sideways }),
-        };
+        let refuse = |reason| Err(ContactError::Unsuited { reason });
         if !surfaces.is_smooth() {
-            return refuse("the surfaces have profiles", "the surfaces have profiles (wheel.profile, rail.profile)");
+            return refuse("the surfaces have profiles (wheel.profile, rail.profile)");
         }
         if surfaces.is_uneven(placement) {
-            return refuse("the surfaces are flattened", "the surfaces are flattened (physics.yielding, physics.wear)");
+            return refuse("the surfaces are flattened (physics.yielding, damage.wear)");
         }
         if !limits.film.is_empty() {
-            return refuse("a surface melts", "a surface melts (physics.melting)");
+            return refuse("a surface melts (material.latent_heat, material.film_friction)");
         }
         match line.time.b1 != 0.0 {
-            true => refuse("the time formula remembers rates", "the time formula remembers rates"),
+            true => refuse("the time formula remembers rates"),
             false => Ok(()),
         }
     }
@@ -111,46 +108,8 @@ impl SeriesSolver {
             && !SeriesLayers::new(&self.constants, &view, &patch).as_ref().is_some_and(bends)
     }
 
-    /// Refuses a solution under which steel yields.
-    fn check_limits(line: &LineProblem, traction: &Traction) -> Result<(), ContactError> {
-        let limits = &line.limits;
-        // Where it sticks friction shears the steel less; that is for the grid to find out.
-        let borne = limits.borne(traction.friction.coefficient);
-        let bears = |x: f64| limits.sheared_at(x, borne);
-        let yields = |(x, p): (&f64, &f64)| *p > bears(*x);
-        let pressure = &traction.pressure;
-        let any = limits.is_limited()
-            && (traction.pressure_max > bears(0.0) || pressure.x.iter().zip(&pressure.value).any(yields));
-        match (any, line.is_sideways()) {
-            (false, _) => Ok(()),
-            (true, false) => Err(ContactError::Unsuited { reason: "steel yields" }),
-            (true, true) => Err(ContactError::Sideways { reason: "steel yields (physics.yielding)" }),
-        }
-    }
-}
-
-impl ContactSolver for SeriesSolver {
-    fn touching(&self, half_width: f64) -> ContactState {
-        let half_width = half_width.min(LARGEST_START * self.reach());
-        let mut pressure = Arch { centre: 0.0, half_width, count: PRESSURE, ..Arch::default() };
-        // That of a cylinder is found in the first iteration.
-        pressure.terms[0] = 1.0;
-        let stick = Arch { terms: Default::default(), ..pressure };
-        let tractions = Tractions { pressure, slide: 1.0, stick, directions: None, lateral: Arch::default() };
-        let past = [(); 2].map(|()| Past::Series(SeriesPast::default()));
-        let state = SeriesState { tractions, past, ..SeriesState::default() };
-        let zeros = || DVector::zeros(2 * POINTS);
-        let [loads, surface] = [(); 2].map(|()| [zeros(), zeros()]);
-        ContactState {
-            ports: Ports::Smooth,
-            traction: Traction { port_forces: zeros(), loads, surface, ..Traction::default() },
-            history: LineHistory::none(POWER),
-            solver: SolverState::Series(Box::new(state)),
-            ..ContactState::default()
-        }
-    }
-
-    fn solve(
+    /// Finds the contact of all lines; see [`ContactSolver::solve`].
+    fn find(
         &self,
         problem: &ContactProblem,
         start: &[&ContactState],
@@ -191,6 +150,56 @@ impl ContactSolver for SeriesSolver {
             Self::check_limits(line, &found.traction)?;
         }
         Ok(())
+    }
+
+    /// Refuses a solution under which steel yields.
+    fn check_limits(line: &LineProblem, traction: &Traction) -> Result<(), ContactError> {
+        let limits = &line.limits;
+        // Where it sticks friction shears the steel less; that is for the grid to find out.
+        let borne = limits.borne(traction.friction.coefficient);
+        let bears = |x: f64| limits.sheared_at(x, borne);
+        let yields = |(x, p): (&f64, &f64)| *p > bears(*x);
+        let pressure = &traction.pressure;
+        let any = limits.is_limited()
+            && (traction.pressure_max > bears(0.0) || pressure.x.iter().zip(&pressure.value).any(yields));
+        if any { Err(ContactError::Unsuited { reason: "steel yields (physics.yielding)" }) } else { Ok(()) }
+    }
+}
+
+impl ContactSolver for SeriesSolver {
+    fn touching(&self, half_width: f64) -> ContactState {
+        let half_width = half_width.min(LARGEST_START * self.reach());
+        let mut pressure = Arch { centre: 0.0, half_width, count: PRESSURE, ..Arch::default() };
+        // That of a cylinder is found in the first iteration.
+        pressure.terms[0] = 1.0;
+        let stick = Arch { terms: Default::default(), ..pressure };
+        let tractions = Tractions { pressure, slide: 1.0, stick, directions: None, lateral: Arch::default() };
+        let past = [(); 2].map(|()| Past::Series(SeriesPast::default()));
+        let state = SeriesState { tractions, past, ..SeriesState::default() };
+        let zeros = || DVector::zeros(2 * POINTS);
+        let [loads, surface] = [(); 2].map(|()| [zeros(), zeros()]);
+        ContactState {
+            ports: Ports::Smooth,
+            traction: Traction { port_forces: zeros(), loads, surface, ..Traction::default() },
+            history: LineHistory::none(POWER),
+            solver: SolverState::Series(Box::new(state)),
+            ..ContactState::default()
+        }
+    }
+
+    fn solve(
+        &self,
+        problem: &ContactProblem,
+        start: &[&ContactState],
+        found: &mut [&mut ContactState],
+        scratch: &mut ContactScratch,
+    ) -> Result<(), ContactError> {
+        // Nothing else takes over a contact that moves sideways.
+        let sideways = problem.lines.iter().any(LineProblem::is_sideways);
+        self.find(problem, start, found, scratch).map_err(|error| match error {
+            ContactError::Unsuited { reason } if sideways => ContactError::Sideways { reason },
+            error => error,
+        })
     }
 
     fn fits(&self, state: &ContactState) -> bool {
