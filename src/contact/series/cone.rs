@@ -10,12 +10,9 @@
 use super::across::Vectors;
 use super::chebyshev::Arch;
 use super::contact::SeriesContact;
-use super::equations::eliminate;
 use super::points::{COUNT, PointTables};
 use super::series_line::SeriesLine;
 use super::surface::SmoothSurfaces;
-use super::together::Answer;
-use crate::axes::Axis;
 use crate::contact::flexibility::{ByMoments, ByPowers};
 use crate::contact::kernel::Logarithm;
 use crate::linalg::POINTS;
@@ -32,22 +29,22 @@ const WHOLE_WAY: f64 = 0.03;
 
 /// Slips at places that belong to the points.
 #[derive(Clone)]
-struct SlipRows {
+pub struct SlipRows {
     /// Slips along and across by the shear of every point in this direction [m/s/Pa].
-    by_shear: [[[f64; COUNT]; COUNT]; 2],
+    pub by_shear: [[[f64; COUNT]; COUNT]; 2],
     /// Slips without any shear [m/s].
     known: Vectors,
     /// Powers of the place over the half-length of the line.
-    powers: [[f64; COUNT]; POINTS],
+    pub powers: [[f64; COUNT]; POINTS],
 }
 
 /// The tangential problem of one line.
 #[derive(Clone)]
 pub struct ConeProblem {
     /// Upstream of the shear, and in its place.
-    rows: [SlipRows; 2],
+    pub rows: [SlipRows; 2],
     /// Change of the slip of every point by its shear [m/s/Pa], the larger one of both directions.
-    least: [f64; COUNT],
+    pub least: [f64; COUNT],
     /// Moments of the shear of every point with the powers of the places \[m].
     moments: [[f64; COUNT]; POINTS],
     /// Friction that points bear, and that at the peak of the pressure \[Pa].
@@ -55,29 +52,21 @@ pub struct ConeProblem {
     most: f64,
 }
 
-/// State that friction asks of a point.
+/// State that friction asks of a point, and what is missing.
 #[derive(Clone, Copy)]
-enum PointState {
-    Stick,
-    /// Slip against `direction`; `turn`: how much of a turn of the shear is left over, over r [m/s/Pa].
-    Slip {
-        direction: [f64; 2],
-        turn: f64,
-    },
+pub enum PointState {
+    /// Stick, with the slip that is left [m/s].
+    Stick { slip: [f64; 2] },
+    /// Slip against `direction`; `turn`: how much of a turn of the shear is left over, over r [m/s/Pa]; `excess`: shear
+    /// beyond that of friction \[Pa].
+    Slip { direction: [f64; 2], turn: f64, excess: [f64; 2] },
 }
 
 /// States that friction asks of all points of a line.
 pub struct ConeVerdict {
-    points: [PointState; COUNT],
+    pub points: [PointState; COUNT],
     /// Largest violation of friction over its peak \[1].
     pub largest: f64,
-}
-
-/// Shear of a line in the linearised law: under the known slip, then what a unit of each coefficient of the polynomials of
-/// the slip takes away \[Pa].
-pub struct ConeAnswer {
-    shears: [Vectors; 1 + SLIPS],
-    moments: [[f64; SLIPS]; 1 + SLIPS],
 }
 
 impl SlipRows {
@@ -191,6 +180,17 @@ impl ConeProblem {
         known.iter_mut().zip(slips.as_flattened()).for_each(|(known, slip)| *known += slip);
     }
 
+    /// Slips by a shear alone [m/s].
+    pub fn slips_of(&self, shear: &Vectors) -> Vectors {
+        std::array::from_fn(|c| {
+            let mut slips = [0.0; COUNT];
+            for (by, q) in self.rows[0].by_shear[c].iter().zip(&shear[c]) {
+                slips.iter_mut().zip(by).for_each(|(slip, by)| *slip += by * q);
+            }
+            slips
+        })
+    }
+
     /// Force [N/m] by which the points resist a unit of slip, each for itself [kg/(m s)].
     pub fn resistance(&self) -> f64 {
         self.moments[0].iter().zip(&self.least).map(|(weight, least)| weight / least).sum()
@@ -211,7 +211,7 @@ impl ConeProblem {
     /// States that friction asks for under a shear and the slip by all else as polynomials.
     pub fn verdict(&self, shear: &Vectors, others: &[f64; SLIPS]) -> ConeVerdict {
         let slips = self.rows[0].slips(shear, others);
-        let (mut points, mut largest) = ([PointState::Stick; COUNT], 0.0_f64);
+        let (mut points, mut largest) = ([PointState::Stick { slip: [0.0; 2] }; COUNT], 0.0_f64);
         for (i, point) in points.iter_mut().enumerate() {
             let (state, violation) = self.judge(i, [shear[0][i], shear[1][i]], [slips[0][i], slips[1][i]]);
             let violation = violation / self.most.max(f64::MIN_POSITIVE);
@@ -226,76 +226,12 @@ impl ConeProblem {
         let held = [0, 1].map(|c| q[c] - s[c] / least);
         let size = libm::hypot(held[0], held[1]);
         if size <= bears {
-            return (PointState::Stick, libm::hypot(s[0], s[1]) / least);
+            return (PointState::Stick { slip: s }, libm::hypot(s[0], s[1]) / least);
         }
         let (direction, share) = (held.map(|z| z / size), bears / size);
         let turn = if share > 0.0 { (1.0 - share) / share * least } else { f64::INFINITY };
-        let violation = libm::hypot(q[0] - bears * direction[0], q[1] - bears * direction[1]);
-        (PointState::Slip { direction, turn }, violation)
-    }
-
-    /// Shear in the law as it is linear about a verdict; `None`: the equations are singular.
-    pub fn answer(&self, verdict: &ConeVerdict) -> Option<ConeAnswer> {
-        let bound = std::array::from_fn(|c| {
-            std::array::from_fn(|i| match verdict.points[i] {
-                PointState::Stick => 0.0,
-                PointState::Slip { direction, .. } => self.bears[i] * direction[c],
-            })
-        });
-        let unknowns = Unknown::of(verdict);
-        let (rows, count) = (&self.rows[0], unknowns.len());
-        let slips = rows.slips(&bound, &[0.0; SLIPS]);
-        let mut columns = [[0.0; UNKNOWNS]; UNKNOWNS + 1 + SLIPS];
-        for (row, Unknown { point: i, along, turn }) in unknowns.iter().enumerate() {
-            for (column, by) in columns.iter_mut().zip(&unknowns) {
-                let part = |c: usize| along[c] * by.along[c] * rows.by_shear[c][by.point][*i];
-                column[row] = part(0) + part(1);
-            }
-            columns[row][row] += turn;
-            columns[count][row] = -(along[0] * slips[0][*i] + along[1] * slips[1][*i]);
-            for (k, column) in columns[count + 1..].iter_mut().take(SLIPS).enumerate() {
-                column[row] = along[k / POINTS] * rows.powers[k % POINTS][*i];
-            }
-        }
-        if !eliminate(&mut columns[..count + 1 + SLIPS], count) {
-            return None;
-        }
-        let mut shears = [[[0.0; COUNT]; 2]; 1 + SLIPS];
-        shears[0] = bound;
-        for (shear, column) in shears.iter_mut().zip(&columns[count..]) {
-            for (unknown, value) in unknowns.iter().zip(column) {
-                shear.iter_mut().zip(unknown.along).for_each(|(shear, along)| shear[unknown.point] += along * value);
-            }
-        }
-        let moments = shears.each_ref().map(|shear| self.moments(shear));
-        Some(ConeAnswer { shears, moments })
-    }
-}
-
-/// One unknown of the linear law with its equation: part of the shear of a point in a direction.
-#[derive(Clone, Copy)]
-struct Unknown {
-    point: usize,
-    along: [f64; 2],
-    turn: f64,
-}
-
-impl Unknown {
-    /// Two of each point that sticks, and one of each that slips and bears anything.
-    fn of(verdict: &ConeVerdict) -> Vec<Self> {
-        let mut all = Vec::with_capacity(UNKNOWNS);
-        for (point, state) in verdict.points.iter().enumerate() {
-            match *state {
-                PointState::Stick => {
-                    all.extend([[1.0, 0.0], [0.0, 1.0]].map(|along| Self { point, along, turn: 0.0 }));
-                }
-                PointState::Slip { turn, .. } if !turn.is_finite() => {}
-                PointState::Slip { direction, turn } => {
-                    all.push(Self { point, along: [-direction[1], direction[0]], turn });
-                }
-            }
-        }
-        all
+        let excess = [0, 1].map(|c| q[c] - bears * direction[c]);
+        (PointState::Slip { direction, turn, excess }, libm::hypot(excess[0], excess[1]))
     }
 }
 
@@ -303,20 +239,9 @@ impl ConeVerdict {
     /// States of the points: 0 where they stick, 1 where they slip.
     pub fn states(&self) -> [i8; COUNT] {
         self.points.map(|point| match point {
-            PointState::Stick => 0,
+            PointState::Stick { .. } => 0,
             PointState::Slip { .. } => 1,
         })
-    }
-}
-
-impl ConeAnswer {
-    /// Shear under a slip besides the known one.
-    pub fn shear(&self, slips: &[f64; SLIPS]) -> Vectors {
-        let mut shear = self.shears[0];
-        for (value, by) in slips.iter().zip(&self.shears[1..]) {
-            shear.as_flattened_mut().iter_mut().zip(by.as_flattened()).for_each(|(q, by)| *q -= value * by);
-        }
-        shear
     }
 }
 
@@ -343,30 +268,5 @@ impl SeriesContact<'_> {
             true => joined([along[n], askew[n]]),
             false => joined([askew[n - POINTS], across[n - POINTS]]),
         })
-    }
-}
-
-impl Answer<SLIPS> for ConeAnswer {
-    fn moments(&self) -> ([f64; SLIPS], [[f64; SLIPS]; SLIPS]) {
-        let [known, by @ ..] = self.moments;
-        (known, by)
-    }
-
-    fn forces(&self) -> ([f64; 2], [[f64; 2]; SLIPS]) {
-        let [known, by @ ..] = self.moments.map(|moments| [moments[0], moments[POINTS]]);
-        (known, by)
-    }
-
-    fn by_motion(line: &SeriesLine, axis: Axis) -> [f64; SLIPS] {
-        let (mut along, mut across) = (line.slip_by_motion(axis), ByPowers::default());
-        let spin = line.problem.spin.by(axis);
-        along[0] -= spin * line.problem.line.position;
-        across[0] = if axis == Axis::Lateral { 1.0 } else { 0.0 };
-        across[1] = spin * line.half_length;
-        joined([along, across])
-    }
-
-    fn along(moments: &[f64; SLIPS]) -> ByPowers {
-        std::array::from_fn(|p| moments[p])
     }
 }

@@ -1,16 +1,15 @@
 //! Newton's method on the law of [`super::cone`] under given pressures, all lines and motions at once.
 
 use super::across::Vectors;
-use super::cone::{ConeAnswer, ConeProblem, ConeVerdict, SLIPS};
-use super::contact::{MOST_LINES, SeriesContact};
+use super::cone::{ConeProblem, ConeVerdict, SLIPS};
+use super::cone_linear::{ConeProblems, Linearised, sum_between};
+use super::contact::SeriesContact;
 use super::series_line::SeriesLine;
-use super::together::Answer;
-use crate::axes::PerAxis;
+use crate::axes::{Axis, PerAxis};
 use crate::contact::error::ContactError;
-use crate::contact::flexibility::polynomial;
 
-/// Steps of Newton's method before the shear is drawn.
-const STEPS: usize = 12;
+/// Times that the law is made linear before the shear is drawn.
+const MOST: usize = 12;
 /// First strength with which the shear is drawn, and what it is multiplied with where that succeeds and where it fails \[1].
 const FIRST: f64 = 0.5;
 const WEAKER: f64 = 0.2;
@@ -23,15 +22,18 @@ const MOST_DRAWN: usize = 60;
 const DRAWN: f64 = 0.05;
 /// Violation of friction beyond which steps lead nowhere \[1].
 const LOST: f64 = 1e3;
+/// Part of a momentum that is lost in rounding \[1].
+const ROUNDING: f64 = 1e-14;
 /// Relative difference of violations that repeat themselves \[1].
 const REPEATED: f64 = 1e-6;
+/// Share of the violation that a step with a linear law of before may leave \[1].
+const SLOW: f64 = 0.2;
 
 /// Where a search is, or was.
 pub struct Begun {
     shears: Vec<Vectors>,
-    slips: Vec<[f64; SLIPS]>,
     rigid: PerAxis<f64>,
-    /// Largest violation of friction \[1].
+    /// Largest violation of friction and balances \[1].
     pub largest: f64,
 }
 
@@ -40,83 +42,121 @@ pub struct Newton<'a> {
     problems: &'a mut [ConeProblem],
     /// Slips of every line by the moments of every other one.
     between: Vec<[[f64; SLIPS]; SLIPS]>,
-    /// Motions of the known slip.
+    /// Motions of the known slip, and what their balances miss without shear [N/m, N].
     base: PerAxis<f64>,
+    without: PerAxis<f64>,
+    /// Force of friction on all lines [N/m].
+    friction: f64,
     pub shears: Vec<Vectors>,
-    /// Slips by all but the known one, as polynomials.
-    slips: Vec<[f64; SLIPS]>,
     /// Present motions.
     pub rigid: PerAxis<f64>,
+    /// Slips by all but the known one, as polynomials.
+    slips: Vec<[f64; SLIPS]>,
     pub verdicts: Vec<ConeVerdict>,
+    /// What the balances of the free motions miss [N/m, N].
+    unbalance: Vec<f64>,
+    /// Linear law of before.
+    pub linear: Option<Linearised>,
 }
 
 impl<'a> Newton<'a> {
-    pub fn new(contact: &SeriesContact, problems: &'a mut [ConeProblem]) -> Self {
-        let (rigid, count) = (contact.lines[0].rigid, problems.len());
-        let between = (0..count * count).map(|k| contact.slips_askew([k / count, k % count])).collect();
-        Self { problems, between, base: rigid, shears: vec![], slips: vec![], rigid, verdicts: vec![] }
+    /// Begins with given shears, with motions that differ from those of the known slip by `motion`.
+    pub fn new(
+        contact: &SeriesContact,
+        problems: &'a mut [ConeProblem],
+        (shears, motion): (&[Vectors], PerAxis<f64>),
+    ) -> Self {
+        let (base, count, resultant) = (contact.lines[0].rigid, problems.len(), contact.resultant());
+        let mut newton = Self {
+            problems,
+            between: (0..count * count).map(|k| contact.slips_askew([k / count, k % count])).collect(),
+            base,
+            without: PerAxis::from_fn(|axis| -contact.unbalance(axis, resultant[axis])),
+            friction: contact.sum(|line| line.friction * line.load()).max(f64::MIN_POSITIVE),
+            shears: shears.to_vec(),
+            rigid: PerAxis::from_fn(|axis| base[axis] + motion[axis]),
+            slips: vec![],
+            verdicts: vec![],
+            unbalance: vec![],
+            linear: None,
+        };
+        newton.judge(contact);
+        newton
     }
 
-    /// Goes on from given shears, with motions that differ from those of the known slip by `motion`.
-    pub fn take(&mut self, contact: &mut SeriesContact, shears: &[Vectors], motion: PerAxis<f64>) {
-        contact.lines.iter_mut().for_each(|line| line.rigid = self.base);
-        let moments: Vec<_> = self.problems.iter().zip(shears).map(|(problem, shear)| problem.moments(shear)).collect();
-        let (contact, count) = (&*contact, moments.len());
+    /// Goes on from given shears, with the motions of the known slip.
+    pub fn take(&mut self, contact: &SeriesContact, shears: &[Vectors]) {
+        self.shears.clone_from_slice(shears);
+        self.rigid = self.base;
+        self.judge(contact);
+    }
+
+    /// Finds what friction and balances ask for under the present shears and motions.
+    fn judge(&mut self, contact: &SeriesContact) {
+        let lines = self.problems.iter().zip(&self.shears);
+        let moments: Vec<_> = lines.map(|(problem, shear)| problem.moments(shear)).collect();
         let slips = |at: usize| {
-            let mut sum = [0.0; SLIPS];
-            for (by, moments) in moments.iter().enumerate() {
-                let slips = polynomial(&self.between[count * at + by], moments);
-                sum.iter_mut().zip(slips).for_each(|(sum, slip)| *sum += slip);
-            }
+            let mut sum = sum_between(&self.between, at, &moments);
             for axis in contact.free_axes() {
-                let slips = ConeAnswer::by_motion(&contact.lines[at], axis);
-                sum.iter_mut().zip(slips).for_each(|(sum, slip)| *sum += motion[axis] * slip);
+                let (slips, change) = (contact.lines[at].slips_by_motion(axis), self.rigid[axis] - self.base[axis]);
+                sum.iter_mut().zip(slips).for_each(|(sum, slip)| *sum += change * slip);
             }
             sum
         };
         self.slips = (0..self.problems.len()).map(slips).collect();
-        self.shears = shears.to_vec();
-        self.rigid = PerAxis::from_fn(|axis| self.base[axis] + motion[axis]);
-        self.judge();
-    }
-
-    /// Finds what friction asks for under the present shears.
-    fn judge(&mut self) {
         let lines = self.problems.iter().zip(&self.shears).zip(&self.slips);
         self.verdicts = lines.map(|((problem, shear), slips)| problem.verdict(shear, slips)).collect();
+        let balance = |axis| {
+            let pulls = moments.iter().enumerate().map(|(line, moments)| contact.pull_of(axis, line, moments));
+            let resisted = contact
+                .free_axes()
+                .map(|other| contact.resistance(axis, other) * (self.rigid[other] - self.base[other]));
+            let [resistance, way] = contact.drawn[axis];
+            self.without[axis] + resistance * way + pulls.sum::<f64>() - resisted.sum::<f64>()
+        };
+        self.unbalance = contact.free_axes().map(balance).collect();
     }
 
-    /// Largest violation of friction \[1].
-    pub fn largest(&self) -> f64 {
-        self.verdicts.iter().map(|verdict| verdict.largest).fold(0.0, f64::max)
+    /// Largest violation of friction and balances \[1].
+    pub fn largest(&self, contact: &SeriesContact) -> f64 {
+        let arm = |axis: Axis| axis.arm(contact.lines[0].problem.line.radius());
+        let balances = contact.free_axes().zip(&self.unbalance);
+        let balances = balances.map(|(axis, missing)| {
+            let rounding = ROUNDING * (contact.resistance(axis, axis) * self.rigid[axis]).abs();
+            (missing.abs() - rounding).max(0.0) / (arm(axis) * self.friction)
+        });
+        self.verdicts.iter().map(|verdict| verdict.largest).chain(balances).fold(0.0, f64::max)
     }
 
-    /// Goes on until friction is violated by no more than the `tolerance`, by steps that are taken whole. Where these end
-    /// nowhere the shear is drawn to the one before, less and less: the slips of points are monotone in their shear, so
-    /// that there is one solution and this way leads there (R. T. Rockafellar, *SIAM J. Control Optim.* 14 (1976) 877).
-    pub fn run(&mut self, contact: &mut SeriesContact, tolerance: f64, moved: bool) -> Result<(), ContactError> {
-        let begun = self.now();
-        if self.steps(contact, tolerance, moved) {
+    /// Goes on until friction and balances are violated by no more than the `tolerance`, by steps that are taken whole. Where
+    /// these end nowhere the shear is drawn to the one before, less and less: the slips of points are monotone in their
+    /// shear, so that there is one solution and this way leads there (R. T. Rockafellar, *SIAM J. Control Optim.* 14 (1976)
+    /// 877).
+    pub fn run(&mut self, contact: &mut SeriesContact, tolerance: f64) -> Result<(), ContactError> {
+        if self.largest(contact) <= tolerance {
             return Ok(());
         }
-        self.restart(&begun);
+        let begun = self.now(contact);
+        if self.steps(contact, tolerance) {
+            return Ok(());
+        }
+        self.restart(contact, &begun);
         let mut strength = FIRST;
         for _ in 0..MOST_DRAWN {
-            let begun = self.now();
-            let inner = (DRAWN * self.largest()).max(tolerance);
-            let found = self.draw(contact, strength, inner);
+            let begun = self.now(contact);
+            let found = self.draw(contact, strength, (DRAWN * begun.largest).max(tolerance));
             if !found {
-                self.restart(&begun);
-            } else if self.largest() <= tolerance {
+                self.restart(contact, &begun);
+            } else if self.largest(contact) <= tolerance {
                 return Ok(());
             }
             strength *= if found { WEAKER } else { STRONGER };
             if found && strength < WEAKEST {
-                let begun = self.now();
-                if self.steps(contact, tolerance, false) {
+                let begun = self.now(contact);
+                if self.steps(contact, tolerance) {
                     return Ok(());
                 }
-                self.restart(&begun);
+                self.restart(contact, &begun);
                 strength = WEAKEST;
             }
         }
@@ -133,72 +173,80 @@ impl<'a> Newton<'a> {
             let arm = axis.arm(contact.lines[0].problem.line.radius());
             contact.drawn[axis] = [resistance * arm * arm, self.rigid[axis] - self.base[axis]];
         }
-        self.judge();
-        let found = self.steps(contact, tolerance, true);
+        self.judge(contact);
+        self.linear = None;
+        let found = self.steps(contact, tolerance);
         contact.drawn = PerAxis::default();
+        self.linear = None;
         self.problems.clone_from_slice(&problems);
-        self.judge();
+        self.judge(contact);
         found
     }
 
-    /// Present shears, slips and motions.
-    pub fn now(&self) -> Begun {
-        let Self { shears, slips, rigid, .. } = self;
-        Begun { shears: shears.clone(), slips: slips.clone(), rigid: *rigid, largest: self.largest() }
+    /// Present shears and motions.
+    pub fn now(&self, contact: &SeriesContact) -> Begun {
+        Begun { shears: self.shears.clone(), rigid: self.rigid, largest: self.largest(contact) }
     }
 
-    /// Begins anew with shears, slips and motions.
-    pub fn restart(&mut self, begun: &Begun) {
+    /// Begins anew with shears and motions.
+    pub fn restart(&mut self, contact: &SeriesContact, begun: &Begun) {
         self.shears.clone_from(&begun.shears);
-        self.slips.clone_from(&begun.slips);
         self.rigid = begun.rigid;
-        self.judge();
+        self.judge(contact);
     }
 
-    /// Corrections of the slips by those in the places of the present shear.
-    pub fn corrections(&self) -> Vec<Vectors> {
-        let all = self.problems.iter().zip(&self.shears).zip(&self.slips);
-        all.map(|((problem, shear), slips)| problem.correction(shear, slips)).collect()
+    /// Corrects the known slips by those in the places of the present shear.
+    pub fn correct(&mut self, contact: &SeriesContact) {
+        for ((problem, shear), slips) in self.problems.iter_mut().zip(&self.shears).zip(&self.slips) {
+            problem.add(&problem.correction(shear, slips));
+        }
+        self.judge(contact);
     }
 
-    /// Corrects the known slips.
-    pub fn correct(&mut self, corrections: &[Vectors]) {
-        self.problems.iter_mut().zip(corrections).for_each(|(problem, slips)| problem.add(slips));
-        self.judge();
-    }
-
-    /// True if a few steps were enough, of which one is taken in any case if motions may have `moved`.
-    fn steps(&mut self, contact: &mut SeriesContact, tolerance: f64, mut moved: bool) -> bool {
-        let mut before = [f64::INFINITY; 2];
-        for _ in 0..STEPS {
-            let largest = self.largest();
-            if largest <= tolerance && !moved {
+    /// True if a few steps were enough. The linear law of before is used as long as the same points stick and it leads on.
+    fn steps(&mut self, contact: &mut SeriesContact, tolerance: f64) -> bool {
+        let (mut before, mut made) = ([f64::INFINITY; 2], 0);
+        loop {
+            let largest = self.largest(contact);
+            if largest <= tolerance {
                 return true;
             }
+            if self.linear.as_ref().is_some_and(|law| law.is_of(&self.verdicts)) {
+                let begun = self.now(contact);
+                if self.step(contact).is_some() && self.largest(contact) < SLOW * largest {
+                    continue;
+                }
+                self.restart(contact, &begun);
+            }
             // Two states that ask for each other have the same violations again and again.
-            if (largest / before[0] - 1.0).abs() < REPEATED || self.step(contact).is_none() {
+            made += 1;
+            if made > MOST || (largest / before[0] - 1.0).abs() < REPEATED {
                 return false;
             }
-            (before, moved) = ([before[1], largest], false);
+            contact.newton_steps += 1;
+            self.linear = Linearised::new(&self.problem(), contact, &self.verdicts);
+            if self.step(contact).is_none() || self.largest(contact) > LOST {
+                return false;
+            }
+            before = [before[1], largest];
         }
-        self.largest() <= tolerance
     }
 
-    /// One step; `None`: there is none.
-    fn step(&mut self, contact: &mut SeriesContact) -> Option<()> {
-        contact.newton_steps += 1;
-        let answers = self.problems.iter().zip(&self.verdicts).map(|(problem, verdict)| problem.answer(verdict));
-        let answers: Vec<_> = answers.collect();
-        if answers.iter().any(Option::is_none) {
-            return None;
+    fn problem(&self) -> ConeProblems<'_> {
+        ConeProblems { lines: self.problems, between: &self.between, unbalance: &self.unbalance }
+    }
+
+    /// One step with the linear law; `None`: there is none.
+    fn step(&mut self, contact: &SeriesContact) -> Option<()> {
+        let mut linear = self.linear.take()?;
+        let (changes, motions) = linear.changes(&self.problem(), contact, &self.verdicts)?;
+        self.linear = Some(linear);
+        for (shear, change) in self.shears.iter_mut().zip(&changes) {
+            let shear = shear.as_flattened_mut().iter_mut();
+            shear.zip(change.as_flattened()).for_each(|(shear, change)| *shear += change);
         }
-        contact.lines.iter_mut().for_each(|line| line.rigid = self.base);
-        let (between, count) = (&self.between, answers.len());
-        let found: [_; MOST_LINES] = contact.share(&answers, |_, [at, by]| between[count * at + by]).ok()?;
-        self.rigid = contact.lines[0].rigid;
-        self.slips = found[..answers.len()].to_vec();
-        self.shears = answers.iter().flatten().zip(&self.slips).map(|(answer, slips)| answer.shear(slips)).collect();
-        self.judge();
-        (self.largest() < LOST).then_some(())
+        contact.free_axes().zip(motions).for_each(|(axis, change)| self.rigid[axis] += change);
+        self.judge(contact);
+        self.largest(contact).is_finite().then_some(())
     }
 }

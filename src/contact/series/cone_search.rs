@@ -4,6 +4,7 @@
 use super::across::Vectors;
 use super::chebyshev::{Arch, TERMS};
 use super::cone::{ConeProblem, ConeVerdict};
+use super::cone_linear::Linearised;
 use super::cone_newton::Newton;
 use super::contact::SeriesContact;
 use super::places::total;
@@ -30,13 +31,12 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let mut search = ConeSearch::new(contact);
     search.write(contact);
     let (mut normal, mut settling) = (contact.press_under_shear(PRESSED, CLOSE)?, Settling::new(contact));
-    let (mut moved, mut last) = (f64::INFINITY, None);
+    let mut last = None;
     for _ in 0..MOST {
         let before = Motions::of(contact);
-        let violation = search.advance(contact, moved)?;
-        moved = before.moved(contact);
+        let violation = search.advance(contact)?;
         // The next round changes as much less than this one as this one less than the last.
-        let change = moved.max(violation);
+        let change = violation.max(before.moved(contact));
         let next = last.map_or(change, |last: f64| change * (change / last).min(1.0));
         last = Some(change.max(f64::MIN_POSITIVE));
         if settling.is_last(normal, next) {
@@ -59,6 +59,8 @@ struct ConeSearch {
     most: Vec<f64>,
     /// True until a first correction has been found.
     first: bool,
+    /// Linear laws of both searches.
+    linear: [Option<Linearised>; 2],
 }
 
 impl ConeSearch {
@@ -77,6 +79,7 @@ impl ConeSearch {
             states: vec![[0; COUNT]; contact.lines.len()],
             most: most.collect(),
             first: true,
+            linear: [None, None],
         }
     }
 
@@ -90,9 +93,8 @@ impl ConeSearch {
         contact.displace();
     }
 
-    /// Finds shear and motions under the present pressures, while motions have `moved` in the last round; returns the
-    /// largest violation of friction before.
-    fn advance(&mut self, contact: &mut SeriesContact, moved: f64) -> Result<f64, ContactError> {
+    /// Finds shear and motions under the present pressures; returns the largest violation of friction and balances before.
+    fn advance(&mut self, contact: &mut SeriesContact) -> Result<f64, ContactError> {
         let mut problems = contact.cone_problems();
         for (k, (line, problem)) in contact.lines.iter().zip(&problems).enumerate() {
             let (now, most) = (line.friction * line.tractions.pressure.terms[0], self.most[k]);
@@ -102,23 +104,25 @@ impl ConeSearch {
             }
             self.most[k] = now;
         }
-        let ends = |newton: &Newton| (SHARE * newton.largest()).clamp(TOLERANCE, ROUGHEST);
-        let moved = moved > TOLERANCE && contact.free_axes().next().is_some();
-        let mut newton = Newton::new(contact, &mut problems);
-        newton.take(contact, &self.uncorrected, self.uncorrected_motion);
-        let mut violation = newton.largest();
-        newton.run(contact, ends(&newton), moved)?;
+        let mut newton = Newton::new(contact, &mut problems, (&self.uncorrected, self.uncorrected_motion));
+        let [without, with] = &mut self.linear;
+        newton.linear = without.take();
+        let mut violation = newton.largest(contact);
+        newton.run(contact, (SHARE * violation).clamp(TOLERANCE, ROUGHEST))?;
+        *without = std::mem::replace(&mut newton.linear, with.take());
         self.uncorrected.clone_from(&newton.shears);
         let motion = newton.rigid;
-        newton.correct(&newton.corrections());
+        newton.correct(contact);
         // At first the shear of the step before may be farther than that without the correction.
-        let without = newton.now();
-        newton.take(contact, &self.shears, PerAxis::default());
-        if std::mem::replace(&mut self.first, false) && newton.largest() > without.largest {
-            newton.restart(&without);
+        let begun = newton.now(contact);
+        newton.take(contact, &self.shears);
+        if std::mem::replace(&mut self.first, false) && newton.largest(contact) > begun.largest {
+            newton.restart(contact, &begun);
         }
-        violation = violation.max(newton.largest());
-        newton.run(contact, ends(&newton), moved)?;
+        let further = newton.largest(contact);
+        violation = violation.max(further);
+        newton.run(contact, (SHARE * further).clamp(TOLERANCE, ROUGHEST))?;
+        *with = newton.linear.take();
         self.uncorrected_motion = PerAxis::from_fn(|axis| motion[axis] - newton.rigid[axis]);
         self.shears = newton.shears;
         self.states = newton.verdicts.iter().map(ConeVerdict::states).collect();

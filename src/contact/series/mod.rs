@@ -13,6 +13,7 @@
 mod across;
 pub mod chebyshev;
 mod cone;
+mod cone_linear;
 mod cone_newton;
 mod cone_search;
 pub(super) mod constants;

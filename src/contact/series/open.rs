@@ -1,7 +1,6 @@
 //! Lines that do not touch: a wheel in the air keeps its points, without tractions.
 
 use super::chebyshev::{Arch, TERMS};
-use super::cone::{ConeAnswer, SLIPS};
 use super::contact::SeriesContact;
 use super::points::COUNT;
 use super::series_line::SeriesLine;
@@ -17,7 +16,7 @@ pub fn solve(contact: &mut SeriesContact) -> Result<bool, ContactError> {
     contact.lines.iter_mut().for_each(SeriesLine::open);
     contact.displace();
     for _ in 0..ROUNDS {
-        contact.share::<SLIPS, ConeAnswer>(&[], |_, _| Default::default())?;
+        contact.share(&[])?;
         contact.rise();
         contact.displace();
         contact.lines.iter_mut().for_each(SeriesLine::approach);

@@ -188,7 +188,7 @@ impl SeriesContact<'_> {
         }
         let stretch = |(line, (.., shears)): (&SeriesLine, &(_, _, Shears))| Some(line.stretch_of(shears));
         let stretches: Vec<_> = self.lines.iter().zip(&found).map(stretch).collect();
-        let slips = self.share(&stretches, |contact, lines| contact.slips_between(lines))?;
+        let slips = self.share(&stretches)?;
         let mut asked = Vec::with_capacity(self.lines.len());
         for (((line, stretch), slips), (problem, states, shears)) in
             self.lines.iter_mut().zip(&stretches).zip(&slips).zip(&found)

@@ -24,7 +24,7 @@ impl SeriesContact<'_> {
         for (line, half) in self.lines.iter().zip(halves) {
             stretches.push(half.map(|_| line.stretch(&surface)).transpose()?);
         }
-        let slips = self.share(&stretches, |contact, lines| contact.slips_between(lines))?;
+        let slips = self.share(&stretches)?;
         for (((line, stretch), slip), root) in self.lines.iter_mut().zip(&stretches).zip(&slips).zip(roots) {
             *root = stretch.as_ref().map_or(0.0, |stretch| line.take(&stretch.tractions(slip)));
             line.place_shear();
@@ -43,89 +43,47 @@ impl SeriesContact<'_> {
         if self.free_axes().next().is_none() {
             return Ok(());
         }
-        self.share::<POINTS, Stretch>(&[], |_, _| Default::default())?;
+        self.share(&[])?;
         self.displace();
         Ok(())
     }
 }
 
-/// Shear of a line as an answer to its slip by all that the known slip does not contain, which is D coefficients of
-/// polynomials: linear but for the shear under the known slip.
-pub trait Answer<const D: usize> {
-    /// Moments [N/m] of the shear under the known slip with the powers that belong to these coefficients, and those that a
-    /// unit of each coefficient takes away.
-    fn moments(&self) -> ([f64; D], [[f64; D]; D]);
-
-    /// Forces [N/m] along and across under the known slip, and those that a unit of each coefficient takes away.
-    fn forces(&self) -> ([f64; 2], [[f64; 2]; D]);
-
-    /// Slip of a line by a unit of a motion.
-    fn by_motion(line: &SeriesLine, axis: Axis) -> [f64; D];
-
-    /// Moments with powers along of given moments.
-    fn along(moments: &[f64; D]) -> ByPowers;
-}
-
-impl Answer<POINTS> for Stretch {
-    fn moments(&self) -> (ByPowers, ByMoments) {
-        let [known, by @ ..] = self.moments();
-        (known, by)
-    }
-
-    fn forces(&self) -> ([f64; 2], [[f64; 2]; POINTS]) {
-        let [known, by @ ..] = self.forces().map(|force| [force, 0.0]);
-        (known, by)
-    }
-
-    fn by_motion(line: &SeriesLine, axis: Axis) -> ByPowers {
-        line.slip_by_motion(axis)
-    }
-
-    fn along(moments: &ByPowers) -> ByPowers {
-        *moments
-    }
-}
-
 impl SeriesContact<'_> {
     /// Finds the motions that are not prescribed, and the slips of all lines that stick by all that the known slip does
-    /// not contain, as polynomials; `between` gives the slips of a line by unit moments of the shear of another one.
-    pub fn share<const D: usize, A: Answer<D>>(
-        &mut self,
-        stretches: &[Option<A>],
-        between: impl Fn(&Self, [usize; 2]) -> [[f64; D]; D],
-    ) -> Result<[[f64; D]; MOST_LINES], ContactError> {
-        let (count, axes) = (D * sticking(stretches).count(), self.free_axes());
+    /// not contain, as polynomials.
+    pub fn share(&mut self, stretches: &[Option<Stretch>]) -> Result<[ByPowers; MOST_LINES], ContactError> {
+        let (count, axes) = (POINTS * sticking(stretches).count(), self.free_axes());
         let mut system = std::mem::take(&mut self.system);
         system.reset(count + axes.clone().count());
         self.write_motions(stretches, &mut system);
         for (column, (by, stretch)) in sticking(stretches).enumerate() {
-            let ((known, moments), (force, forces)) = (stretch.moments(), stretch.forces());
+            let ([known, moments @ ..], [force, forces @ ..]) = (stretch.moments(), stretch.forces());
             for (row, (at, _)) in sticking(stretches).enumerate() {
-                let between = between(self, [at, by]);
+                let between = self.slips_between([at, by]);
                 let (known, slips) =
                     (polynomial(&between, &known), moments.map(|moments| polynomial(&between, &moments)));
-                for p in 0..D {
+                for p in 0..POINTS {
                     // The known tractions stand on the right, the others take away from them.
-                    let (coefficients, side) = system.row(D * row + p);
+                    let (coefficients, side) = system.row(POINTS * row + p);
                     *side += known[p];
-                    let coefficients = coefficients[D * column..][..D].iter_mut();
+                    let coefficients = coefficients[POINTS * column..][..POINTS].iter_mut();
                     coefficients.zip(&slips).for_each(|(value, slip)| *value += slip[p]);
                 }
             }
             for (row, axis) in axes.clone().enumerate() {
                 let (coefficients, side) = system.row(count + row);
-                *side += self.pull(axis, by, force, &A::along(&known));
-                let coefficients = coefficients[D * column..][..D].iter_mut();
-                let by_slips = moments.iter().map(A::along).zip(forces);
-                coefficients.zip(by_slips).for_each(|(value, (moments, force))| {
-                    *value += self.pull(axis, by, force, &moments);
+                *side += self.pull(axis, by, [force, 0.0], &known);
+                let coefficients = coefficients[POINTS * column..][..POINTS].iter_mut();
+                coefficients.zip(moments.iter().zip(forces)).for_each(|(value, (moments, force))| {
+                    *value += self.pull(axis, by, [force, 0.0], moments);
                 });
             }
         }
-        let mut slips = [[0.0; D]; MOST_LINES];
+        let mut slips = [ByPowers::default(); MOST_LINES];
         let solved = system.solve().map(|solution| {
             let (polynomials, changes) = solution.split_at(count);
-            let lines = sticking(stretches).zip(polynomials.as_chunks::<D>().0);
+            let lines = sticking(stretches).zip(polynomials.as_chunks::<POINTS>().0);
             lines.for_each(|((line, _), slip)| slips[line] = *slip);
             axes.zip(changes).for_each(|(axis, change)| self.speed_up(axis, *change));
         });
@@ -135,15 +93,15 @@ impl SeriesContact<'_> {
 
     /// Writes the effect of the motions on the slips of lines that stick, and the balances of the motions but for the
     /// stretches that stick.
-    fn write_motions<const D: usize, A: Answer<D>>(&self, stretches: &[Option<A>], system: &mut DenseSystem) {
-        let count = D * sticking(stretches).count();
+    fn write_motions(&self, stretches: &[Option<Stretch>], system: &mut DenseSystem) {
+        let count = POINTS * sticking(stretches).count();
         for (row, (line, _)) in sticking(stretches).enumerate() {
-            for p in 0..D {
-                system.row(D * row + p).0[D * row + p] = 1.0;
+            for p in 0..POINTS {
+                system.row(POINTS * row + p).0[POINTS * row + p] = 1.0;
             }
             for (column, axis) in self.free_axes().enumerate() {
-                let slip = A::by_motion(&self.lines[line], axis);
-                slip.iter().enumerate().for_each(|(p, slip)| system.row(D * row + p).0[count + column] = -slip);
+                let slip = self.lines[line].slip_by_motion(axis);
+                slip.iter().enumerate().for_each(|(p, slip)| system.row(POINTS * row + p).0[count + column] = -slip);
             }
         }
         // Of friction alone: the stretches have no shear yet.
@@ -154,15 +112,12 @@ impl SeriesContact<'_> {
             for (column, other) in self.free_axes().enumerate() {
                 coefficients[count + column] = self.inertia(axis, other) * self.rigid[other].gain;
             }
-            let [resistance, way] = self.drawn[axis];
-            coefficients[count + row] += resistance;
-            *side += resistance * way;
         }
     }
 
     /// Part of a shear of a line in the balance of a motion \[N/m, N], given its forces along and across [N/m] and its
     /// moments along with the powers of the places.
-    fn pull(&self, axis: Axis, line: usize, [along, across]: [f64; 2], moments: &ByPowers) -> f64 {
+    pub fn pull(&self, axis: Axis, line: usize, [along, across]: [f64; 2], moments: &ByPowers) -> f64 {
         let (problem, ports) = (self.lines[line].problem.line, self.at_points(line, moments));
         let momentum = (0..POINTS).map(|l| self.bodies().momentum[(axis.number(), 2 * l)] * ports[l]).sum::<f64>();
         let sliding = self.lines[0].problem.line.sliding(axis);
@@ -219,7 +174,7 @@ impl SeriesContact<'_> {
 }
 
 /// Lines of which a stretch sticks, by number.
-fn sticking<A>(stretches: &[Option<A>]) -> impl Iterator<Item = (usize, &A)> {
+fn sticking(stretches: &[Option<Stretch>]) -> impl Iterator<Item = (usize, &Stretch)> {
     stretches.iter().enumerate().filter_map(|(line, stretch)| Some((line, stretch.as_ref()?)))
 }
 

@@ -1,0 +1,257 @@
+//! The law of [`super::cone`] made linear, on one line and for all lines and motions together.
+
+use super::across::Vectors;
+use super::cone::{ConeProblem, ConeVerdict, PointState, SLIPS};
+use super::contact::SeriesContact;
+use super::points::COUNT;
+use super::series_line::SeriesLine;
+use crate::axes::Axis;
+use crate::contact::flexibility::{ByPowers, polynomial};
+use crate::linalg::{DenseSystem, POINTS};
+
+/// One unknown of the linear law with its equation: part of the shear of a point in a direction.
+#[derive(Clone, Copy)]
+struct Unknown {
+    point: usize,
+    along: [f64; 2],
+    turn: f64,
+}
+
+/// The linear law of one line.
+struct LinearLine {
+    points: [PointState; COUNT],
+    unknowns: Vec<Unknown>,
+    /// Factors of the equations of the unknowns.
+    system: DenseSystem,
+    /// Shear that a unit of each coefficient of the polynomials of the slip takes away \[Pa], and its moments.
+    responses: [Vectors; SLIPS],
+    moments: [[f64; SLIPS]; SLIPS],
+}
+
+/// The linear law of all lines and motions.
+pub struct Linearised {
+    lines: Vec<LinearLine>,
+    /// Factors of the equations of the slips that lines and motions give to each other.
+    system: DenseSystem,
+}
+
+impl Unknown {
+    /// Two of each point that sticks, and one of each that slips and bears anything.
+    fn of(points: &[PointState; COUNT]) -> Vec<Self> {
+        let mut all = Vec::with_capacity(2 * COUNT);
+        for (point, state) in points.iter().enumerate() {
+            match *state {
+                PointState::Stick { .. } => {
+                    all.extend([[1.0, 0.0], [0.0, 1.0]].map(|along| Self { point, along, turn: 0.0 }));
+                }
+                PointState::Slip { turn, .. } if !turn.is_finite() => {}
+                PointState::Slip { direction, turn, .. } => {
+                    all.push(Self { point, along: [-direction[1], direction[0]], turn });
+                }
+            }
+        }
+        all
+    }
+
+    /// Part of a vector of its point.
+    fn part(&self, of: [f64; 2]) -> f64 {
+        self.along[0] * of[0] + self.along[1] * of[1]
+    }
+}
+
+impl LinearLine {
+    /// Law about a verdict; `None`: the equations are singular.
+    fn new(problem: &ConeProblem, verdict: &ConeVerdict) -> Option<Self> {
+        let (points, unknowns, rows) = (verdict.points, Unknown::of(&verdict.points), &problem.rows[0]);
+        let mut system = DenseSystem::default();
+        system.reset(unknowns.len());
+        for (i, unknown) in unknowns.iter().enumerate() {
+            let (coefficients, _) = system.row(i);
+            for (value, by) in coefficients.iter_mut().zip(&unknowns) {
+                *value = unknown.part([0, 1].map(|c| by.along[c] * rows.by_shear[c][by.point][unknown.point]));
+            }
+            coefficients[i] += unknown.turn;
+        }
+        if !system.factorise() {
+            return None;
+        }
+        let mut line =
+            Self { points, unknowns, system, responses: [[[0.0; COUNT]; 2]; SLIPS], moments: [[0.0; SLIPS]; SLIPS] };
+        for k in 0..SLIPS {
+            let power = rows.powers[k % POINTS];
+            let right = |unknown: &Unknown| unknown.along[k / POINTS] * power[unknown.point];
+            line.responses[k] = line.solve(right)?;
+            line.moments[k] = problem.moments(&line.responses[k]);
+        }
+        Some(line)
+    }
+
+    /// Shear of the unknowns under a right-hand side.
+    fn solve(&mut self, right: impl Fn(&Unknown) -> f64) -> Option<Vectors> {
+        let mut values: [f64; 2 * COUNT] = [0.0; 2 * COUNT];
+        let values = &mut values[..self.unknowns.len()];
+        values.iter_mut().zip(&self.unknowns).for_each(|(value, unknown)| *value = right(unknown));
+        if !self.system.solve_with(values) {
+            return None;
+        }
+        let mut shear = Vectors::default();
+        for (unknown, value) in self.unknowns.iter().zip(values) {
+            shear.iter_mut().zip(unknown.along).for_each(|(shear, along)| shear[unknown.point] += along * *value);
+        }
+        Some(shear)
+    }
+
+    /// True if the same points stick.
+    fn is_of(&self, verdict: &ConeVerdict) -> bool {
+        let sticks = |state: &PointState| matches!(state, PointState::Stick { .. });
+        self.points.iter().zip(&verdict.points).all(|(mine, other)| sticks(mine) == sticks(other))
+    }
+
+    /// Change of the shear that takes away what a verdict misses, while nothing else changes.
+    fn change(&mut self, problem: &ConeProblem, verdict: &ConeVerdict) -> Option<Vectors> {
+        let mut given = Vectors::default();
+        for (i, (mine, state)) in self.points.iter().zip(&verdict.points).enumerate() {
+            let (PointState::Slip { direction, turn, .. }, PointState::Slip { excess, .. }) = (mine, state) else {
+                continue;
+            };
+            let outward = direction[0] * excess[0] + direction[1] * excess[1];
+            for c in 0..2 {
+                given[c][i] = if turn.is_finite() { -outward * direction[c] } else { -excess[c] };
+            }
+        }
+        let slips = problem.slips_of(&given);
+        let missing = |unknown: &Unknown| {
+            let i = unknown.point;
+            let missing = match verdict.points[i] {
+                PointState::Stick { slip } => unknown.part(slip),
+                PointState::Slip { excess, .. } => (unknown.turn + problem.least[i]) * unknown.part(excess),
+            };
+            -missing - unknown.part([slips[0][i], slips[1][i]])
+        };
+        let mut change = self.solve(missing)?;
+        change.as_flattened_mut().iter_mut().zip(given.as_flattened()).for_each(|(change, given)| *change += given);
+        Some(change)
+    }
+}
+
+/// Tangential problems of all lines, the slips of every line by the moments of every other one, and what the balances of
+/// the motions that are free miss [N/m, N].
+pub struct ConeProblems<'a> {
+    pub lines: &'a [ConeProblem],
+    pub between: &'a [[[f64; SLIPS]; SLIPS]],
+    pub unbalance: &'a [f64],
+}
+
+impl Linearised {
+    /// Law about verdicts; `None`: the equations are singular.
+    pub fn new(problems: &ConeProblems, contact: &SeriesContact, verdicts: &[ConeVerdict]) -> Option<Self> {
+        let lines: Option<Vec<_>> =
+            problems.lines.iter().zip(verdicts).map(|(problem, verdict)| LinearLine::new(problem, verdict)).collect();
+        let (lines, axes) = (lines?, contact.free_axes());
+        let (count, all) = (lines.len(), SLIPS * lines.len());
+        let mut system = DenseSystem::default();
+        system.reset(all + axes.clone().count());
+        for at in 0..count {
+            for (by, line) in lines.iter().enumerate() {
+                let slips = line.moments.map(|moments| polynomial(&problems.between[count * at + by], &moments));
+                for p in 0..SLIPS {
+                    let (row, _) = system.row(SLIPS * at + p);
+                    row[SLIPS * by..][..SLIPS].iter_mut().zip(&slips).for_each(|(value, slips)| *value = slips[p]);
+                }
+            }
+            for p in 0..SLIPS {
+                system.row(SLIPS * at + p).0[SLIPS * at + p] += 1.0;
+            }
+            for (column, axis) in axes.clone().enumerate() {
+                let slips = contact.lines[at].slips_by_motion(axis);
+                (0..SLIPS).for_each(|p| system.row(SLIPS * at + p).0[all + column] = -slips[p]);
+            }
+        }
+        for (i, axis) in axes.clone().enumerate() {
+            let (row, _) = system.row(all + i);
+            for (by, line) in lines.iter().enumerate() {
+                let row = row[SLIPS * by..][..SLIPS].iter_mut();
+                row.zip(&line.moments).for_each(|(value, moments)| *value = contact.pull_of(axis, by, moments));
+            }
+            for (column, other) in axes.clone().enumerate() {
+                row[all + column] = contact.resistance(axis, other);
+            }
+        }
+        system.factorise().then_some(Self { lines, system })
+    }
+
+    /// True if the same points stick.
+    pub fn is_of(&self, verdicts: &[ConeVerdict]) -> bool {
+        self.lines.iter().zip(verdicts).all(|(line, verdict)| line.is_of(verdict))
+    }
+
+    /// Changes of the shear of all lines and of the free motions that take away what verdicts and balances miss.
+    pub fn changes(
+        &mut self,
+        problems: &ConeProblems,
+        contact: &SeriesContact,
+        verdicts: &[ConeVerdict],
+    ) -> Option<(Vec<Vectors>, Vec<f64>)> {
+        let alone = self.lines.iter_mut().zip(problems.lines).zip(verdicts);
+        let alone: Option<Vec<_>> = alone.map(|((line, problem), verdict)| line.change(problem, verdict)).collect();
+        let (mut changes, count) = (alone?, self.lines.len());
+        let moments: Vec<_> =
+            problems.lines.iter().zip(&changes).map(|(problem, change)| problem.moments(change)).collect();
+        let mut right = vec![0.0; SLIPS * count + problems.unbalance.len()];
+        let (slips, balances) = right.split_at_mut(SLIPS * count);
+        for (at, slips) in slips.as_chunks_mut::<SLIPS>().0.iter_mut().enumerate() {
+            *slips = sum_between(problems.between, at, &moments);
+        }
+        for ((balance, axis), missing) in balances.iter_mut().zip(contact.free_axes()).zip(problems.unbalance) {
+            let pulls = moments.iter().enumerate().map(|(line, moments)| contact.pull_of(axis, line, moments));
+            *balance = missing + pulls.sum::<f64>();
+        }
+        if !self.system.solve_with(&mut right) {
+            return None;
+        }
+        let (slips, motions) = right.split_at(SLIPS * count);
+        for ((change, line), slips) in changes.iter_mut().zip(&self.lines).zip(slips.as_chunks::<SLIPS>().0) {
+            for (slip, response) in slips.iter().zip(&line.responses) {
+                let change = change.as_flattened_mut().iter_mut().zip(response.as_flattened());
+                change.for_each(|(change, by)| *change -= slip * by);
+            }
+        }
+        Some((changes, motions.to_vec()))
+    }
+}
+
+/// Slips of a line by the moments of all lines, as coefficients of polynomials along and across.
+pub fn sum_between(between: &[[[f64; SLIPS]; SLIPS]], at: usize, moments: &[[f64; SLIPS]]) -> [f64; SLIPS] {
+    let mut sum = [0.0; SLIPS];
+    for (between, moments) in between[moments.len() * at..].iter().zip(moments) {
+        sum.iter_mut().zip(polynomial(between, moments)).for_each(|(sum, slip)| *sum += slip);
+    }
+    sum
+}
+
+impl SeriesContact<'_> {
+    /// Part of a shear of a line in the balance of a motion \[N/m, N], given its moments along, then across.
+    pub fn pull_of(&self, axis: Axis, line: usize, moments: &[f64; SLIPS]) -> f64 {
+        let along: ByPowers = std::array::from_fn(|p| moments[p]);
+        self.pull(axis, line, [moments[0], moments[POINTS]], &along)
+    }
+
+    /// Change of the force [N/m] or moment \[N] that a motion takes, by another one.
+    pub fn resistance(&self, axis: Axis, other: Axis) -> f64 {
+        let drawn = if axis == other { self.drawn[axis][0] } else { 0.0 };
+        self.inertia(axis, other) * self.rigid[other].gain + drawn
+    }
+}
+
+impl SeriesLine<'_> {
+    /// Slip along and across by a unit of a motion, as coefficients of polynomials.
+    pub fn slips_by_motion(&self, axis: Axis) -> [f64; SLIPS] {
+        let mut slips = [0.0; SLIPS];
+        slips[..POINTS].copy_from_slice(&self.slip_by_motion(axis));
+        let spin = self.problem.spin.by(axis);
+        slips[0] -= spin * self.problem.line.position;
+        slips[POINTS] = if axis == Axis::Lateral { 1.0 } else { 0.0 };
+        slips[POINTS + 1] = spin * self.half_length;
+        slips
+    }
+}
