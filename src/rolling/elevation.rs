@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn a_smooth_track_takes_one_internal_step_and_a_rough_one_those_of_two_milliseconds_with_rates_or_without() {
+    fn a_smooth_track_takes_one_internal_step_and_a_rough_one_those_of_two_milliseconds() {
         let h = 0.01;
         let pieces = |frequency: f64, amplitude: f64, given: bool| {
             let height = |t: f64| amplitude * (1.0 - (frequency * t).cos());
