@@ -308,6 +308,43 @@ fn a_track_loads_the_wheel_alike_in_steps_of_one_and_five_milliseconds_or_tells_
     assert!(told && force < 4.2e3);
 }
 
+/// Contact forces \[N] and the number of internal steps of a wheel on waves of 2.5 mm that pass with 2.7 Hz, from 0.2 s on,
+/// every 10 ms, in steps of `h` seconds; with their rates where `given`.
+fn on_long_waves(h: f64, given: bool) -> (Vec<f64>, u64) {
+    let model = wheel(|config| config.initial.velocity = 20.0);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    let (frequency, each, mut forces, mut steps) = (17.0, (1e-2 / h).round() as usize, Vec::new(), 0);
+    for k in 1..=100 * each {
+        let phase = frequency * h * k as f64;
+        inputs.drive.elevation = 2.5e-3 * (1.0 - phase.cos());
+        inputs.drive.elevation_rate = if given { 2.5e-3 * frequency * phase.sin() } else { 0.0 };
+        simulation.advance(&inputs, h).unwrap();
+        steps += simulation.outputs().internal_steps;
+        if k % each == 0 && k > 20 * each {
+            forces.push(simulation.outputs().contact_force_y - 1e5);
+        }
+    }
+    (forces, steps)
+}
+
+#[test]
+fn a_smooth_track_in_steps_of_ten_milliseconds_takes_hardly_more_internal_steps_without_rates_than_with_them() {
+    let (exact, _) = on_long_waves(5e-4, true);
+    let amplitude = exact.iter().fold(0.0f64, |most, force| most.max(force.abs()));
+    let [(given, steps_given), (found, steps_found)] = [true, false].map(|given| on_long_waves(1e-2, given));
+    let error = |forces: &[f64]| {
+        let squares: f64 = forces.iter().zip(&exact).map(|(a, b)| (a - b).powi(2)).sum();
+        (squares / exact.len() as f64).sqrt() / amplitude
+    };
+    let errors = [error(&given), error(&found)];
+    println!(
+        "rms errors over the amplitude of {amplitude} N: {errors:.3?}, internal steps {steps_given}, {steps_found}"
+    );
+    assert!(steps_found as f64 <= 1.3 * steps_given as f64);
+    assert!(errors.iter().all(|error| *error < 0.03));
+}
+
 /// Contact forces every 10 ms \[N] of a wheel of a preset on the same track, which passes under it at 20 m/s whatever its own
 /// speed is, in steps of `h` seconds with rates; its moment and the friction change a little in every step where they `vary`.
 fn forces_on_a_wave(name: &str, velocity: f64, vary: bool, h: f64) -> Vec<f64> {

@@ -70,6 +70,45 @@ pub fn logarithm_terms(t: f64, count: usize) -> [f64; TERMS] {
 }
 
 impl Arch {
+    /// The traction on a stretch that is longer by a `factor`, its edge at `t = edge` staying where it is: to first order it
+    /// differs by [`Self::root_by_length`].
+    ///
+    /// With the place τ from that edge `∂/∂ln(half) √(1 − τ²) U_k = −(k + 1) T_{k+1} √((1 − τ)/(1 + τ))`, of which
+    /// `T_{k+1}(−1)` makes the root, and the rest, divided by `1 + τ`, is `U_k − 2U_{k−1} + 2U_{k−2} − …`
+    pub fn stretched(&self, factor: f64, edge: f64) -> Self {
+        let (mut longer, mut higher) = (*self, 0.0);
+        longer.half_width *= factor;
+        longer.centre += edge * (self.half_width - longer.half_width);
+        for (k, term) in longer.terms.iter_mut().enumerate().rev() {
+            let change = (factor - 1.0) * (k + 1) as f64 * *term;
+            *term += change + higher;
+            higher = -edge * (higher + 2.0 * change);
+        }
+        longer
+    }
+
+    /// Strength of the root `√((1 − τ)/(1 + τ))`, τ counted to the edge, that the traction needs besides to be the same as on
+    /// a longer stretch, per relative change of the length \[Pa].
+    pub fn root_by_length(&self, edge: f64) -> f64 {
+        let (mut sign, mut sum) = (1.0, 0.0);
+        for (k, term) in self.terms.iter().enumerate() {
+            sum += sign * (k + 1) as f64 * term;
+            sign *= -edge;
+        }
+        sum
+    }
+
+    /// Traction that changes on as it did from an `earlier` one, by `ratio` times as much.
+    pub fn onwards(&self, earlier: &Self, ratio: f64) -> Self {
+        let onwards = |now: f64, earlier: f64| now + ratio * (now - earlier);
+        Self {
+            centre: onwards(self.centre, earlier.centre),
+            half_width: onwards(self.half_width, earlier.half_width),
+            count: self.count,
+            terms: std::array::from_fn(|k| onwards(self.terms[k], earlier.terms[k])),
+        }
+    }
+
     /// Ends of the stretch \[m].
     pub fn ends(&self) -> [f64; 2] {
         [self.centre - self.half_width, self.centre + self.half_width]
@@ -342,6 +381,27 @@ mod tests {
         for x in [0.25, 0.285, 0.3, 0.317, 0.35] {
             let slope = (arch.logarithm(&[x + 1e-6])[0] - arch.logarithm(&[x - 1e-6])[0]) / 2e-6;
             assert!((slope - arch.cauchy(&[x])[0]).abs() < 1e-5 * arch.terms[0], "{x}");
+        }
+    }
+    /// The error falls with the square of the change of the length, at either edge.
+    #[test]
+    fn a_traction_with_its_root_is_the_one_on_a_longer_stretch() {
+        let mut arch = Arch { centre: 0.3, half_width: 2.0, count: 6, ..Arch::default() };
+        arch.terms[..6].copy_from_slice(&[1.0, -0.3, 0.2, 0.1, -0.05, 0.02]);
+        let places: [f64; 7] = std::array::from_fn(|k| 0.3 * k as f64 - 0.9);
+        for edge in [1.0, -1.0] {
+            let error = |change: f64| {
+                let longer = arch.stretched(1.0 + change, edge);
+                assert!((longer.centre + edge * longer.half_width - (0.3 + edge * 2.0)).abs() < 1e-14);
+                let root = change * arch.root_by_length(edge);
+                let x = places.map(|t| 0.3 + 2.0 * t);
+                let both = longer.density(&x).into_iter().zip(arch.density(&x)).zip(places);
+                let of_root = |t: f64| root * ((1.0 - edge * t) / (1.0 + edge * t)).sqrt();
+                both.map(|((longer, before), t)| (longer - before - of_root(t)).abs()).fold(0.0, f64::max)
+            };
+            let errors = [1e-3, 1e-4].map(error);
+            println!("edge {edge}: {errors:?}");
+            assert!(errors[0] < 1e-4 && (errors[0] / errors[1] / 100.0 - 1.0).abs() < 0.1);
         }
     }
 }

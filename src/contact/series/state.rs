@@ -130,14 +130,8 @@ impl SeriesState {
         if !now.same_branch(earlier) || now.slides() || now.directions.is_some() || !steady {
             return now;
         }
-        let [new, old] = [&now.stick, &earlier.stick];
-        let onwards = |new: f64, old: f64| new + ratio * (new - old);
-        let stick = Arch {
-            centre: onwards(new.centre, old.centre),
-            half_width: (share + change) * now.pressure.half_width,
-            count: new.count,
-            terms: std::array::from_fn(|k| onwards(new.terms[k], old.terms[k])),
-        };
+        let half_width = (share + change) * now.pressure.half_width;
+        let stick = Arch { half_width, ..now.stick.onwards(&earlier.stick, ratio) };
         Tractions { stick, ..now }
     }
 }

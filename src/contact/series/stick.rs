@@ -24,9 +24,17 @@ const NEITHER: f64 = 1e-10;
 /// meanwhile, too: roots after shorter ones are those of other changes.
 const LONG: f64 = 1e-6;
 const NOTICED: f64 = 10.0;
+/// Largest change of the length of stick, over this length, that is a step of Newton's method \[1].
+const NEAR: f64 = 0.02;
+/// Change of the root with the share, over that of Carter's tractions, with which it is one \[1].
+const BELIEVED: std::ops::Range<f64> = 0.2..5.0;
+/// Error that a pass leaves, over its changes of pressures, motions and places where slip begins \[1]: pressures follow shears,
+/// and shears pressures, one pass behind.
+const BEHIND: f64 = 0.03;
 
-/// Largest error of the places where slip begins, and largest change of motions, that end the search \[1]: friction forces
+/// Largest relative error that a solution on arches leaves, and largest change that ends other searches \[1]: friction forces
 /// are off by about twice as much. In equilibria, which others improve from solution to solution, it is smaller.
+const LEFT_OVER: f64 = 1e-10;
 const TOLERANCE: f64 = 2e-11;
 const AT_REST: f64 = 1e-12;
 /// Largest change that ends it where rounding allows no more.
@@ -47,7 +55,7 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     }
     contact.displace();
     let mut normal = contact.press_under_shear(WARM, CLOSE)?;
-    let (mut search, mut settling) = (Search::new(contact), Settling::new(contact));
+    let (mut search, mut settling) = (Search::new(contact), Settling::by_errors(contact));
     // Normal and tangential problem improve each other by turns.
     for _ in 0..MOST {
         let tangential = search.advance(contact, normal)?;
@@ -77,19 +85,32 @@ impl SeriesContact<'_> {
 /// When iterations end.
 pub struct Settling {
     tolerance: f64,
+    /// Weight of the change of pressures \[1].
+    pressed: f64,
     /// Change of the last iteration.
     last: f64,
 }
 
 impl Settling {
+    /// An end by the changes of iterations.
     pub fn new(contact: &SeriesContact) -> Self {
-        let stationary = contact.lines[0].problem.line.time.is_stationary();
-        Self { tolerance: if stationary { AT_REST } else { TOLERANCE }, last: f64::INFINITY }
+        Self::within(TOLERANCE, PRESSED, contact)
     }
 
-    /// True if the relative changes of an iteration are the last ones that count.
+    /// An end by the errors that iterations leave.
+    fn by_errors(contact: &SeriesContact) -> Self {
+        Self::within(LEFT_OVER, BEHIND, contact)
+    }
+
+    fn within(tolerance: f64, pressed: f64, contact: &SeriesContact) -> Self {
+        let stationary = contact.lines[0].problem.line.time.is_stationary();
+        Self { tolerance: if stationary { AT_REST } else { tolerance }, pressed, last: f64::INFINITY }
+    }
+
+    /// True if the relative change of the pressure in an iteration, and the change or error of all else, are the last ones that
+    /// count.
     pub fn is_last(&mut self, normal: f64, tangential: f64) -> bool {
-        let change = tangential.max(PRESSED * normal);
+        let change = tangential.max(self.pressed * normal);
         let last = std::mem::replace(&mut self.last, change);
         change <= self.tolerance || change <= ROUNDING && change >= last
     }
@@ -106,8 +127,8 @@ impl Search {
         Self { lines }
     }
 
-    /// Improves shear and motions after a relative change `normal` of the pressure; returns the largest relative change,
-    /// infinite where a search begins anew: how changes fall is not known then.
+    /// Improves shear and motions after a relative change `normal` of the pressure; returns the largest relative error that is
+    /// left, infinite where a search begins anew: how errors fall is not known then.
     fn advance(&mut self, contact: &mut SeriesContact, normal: f64) -> Result<f64, ContactError> {
         let before = Motions::of(contact);
         let mut halves = [None; MOST_LINES];
@@ -116,20 +137,19 @@ impl Search {
         }
         if halves.iter().all(Option::is_none) {
             contact.glide()?;
-            return Ok(before.moved(contact));
+            return Ok(BEHIND * before.moved(contact));
         }
         let mut roots = [0.0; MOST_LINES];
         let count = contact.lines.len();
         contact.stick(&halves[..count], &mut roots)?;
-        let (moved, mut largest) = (before.moved(contact), 0.0_f64);
+        let (moved, mut left) = (before.moved(contact), 0.0_f64);
         let lines = contact.lines.iter_mut().zip(&mut self.lines);
         for ((line, search), root) in lines.zip(roots) {
-            largest = largest.max(search.improve(line, root, [normal, moved])?);
+            left = left.max(search.improve(line, root, [normal, moved])?);
+            line.place_shear();
         }
-        if largest > LONG {
-            contact.displace();
-        }
-        Ok(largest)
+        contact.displace();
+        Ok(left)
     }
 
     /// True if the solution obeys friction on every line; `false`: the search has to go on.
@@ -213,10 +233,10 @@ impl StickSearch {
         if slope.is_finite() { slope } else { 0.0 }
     }
 
-    /// Improves the length of stick after a solution with a `root`; returns the largest relative change, infinite where
-    /// the search begins anew. Pressures have changed by `normal` and motions by `moved` \[1].
+    /// Improves the length of stick after a solution with a `root`; returns the largest relative error that is left, infinite
+    /// where the search begins anew. Pressures have changed by `normal` and motions by `moved` \[1].
     fn improve(&mut self, it: &mut SeriesLine, root: f64, [normal, moved]: [f64; 2]) -> Result<f64, ContactError> {
-        let Some(share) = self.share else { return Ok(moved) };
+        let Some(share) = self.share else { return Ok(BEHIND * moved) };
         if let Some([other, there]) = self.last
             && let moved = (share - other).abs()
             && (moved > LONG || (root / there).abs() > LEFT)
@@ -229,6 +249,9 @@ impl StickSearch {
         }
         self.last = Some([share, root]);
         let peak = it.friction * it.tractions.pressure.terms[0];
+        if let Some(left) = self.absorb(it, root, moved) {
+            return Ok(left);
+        }
         let next = share - root / self.slope;
         let lasting = root.abs() > peak * NEITHER.max(LEFT * self.moving);
         if next >= 1.0 && share >= 1.0 && lasting {
@@ -246,12 +269,27 @@ impl StickSearch {
         }
         let next = next.clamp((0.3 * share).max(SHORTEST), 1.0);
         self.share = Some(next);
-        if (next - share).abs() > LONG {
-            it.restretch(next / share);
-        }
+        it.restretch(next / share);
         let change = (root / peak).abs().max((next - share).abs());
         self.moving = change.max(moved);
         Ok(self.moving)
+    }
+
+    /// Takes a weak root for another length of the stretch, and returns the relative error that is left; `None`: it is not weak.
+    ///
+    /// A traction with its root is, to first order, one without on another length, whose slip, moments and motions are the
+    /// same. So this is a step of Newton's method for all lines together.
+    fn absorb(&mut self, it: &mut SeriesLine, root: f64, moved: f64) -> Option<f64> {
+        let (share, slope) = (self.share?, it.root_by_share());
+        let change = -root / slope;
+        let near = change.abs() <= NEAR * share && share + change < 1.0 && share + change > SHORTEST;
+        if !near || !BELIEVED.contains(&(slope / Self::quasistatic(it))) {
+            return None;
+        }
+        self.share = Some(share + change);
+        it.absorb_root(1.0 + change / share);
+        self.moving = change.abs().max(moved);
+        Some((change * change / share).max(BEHIND * self.moving))
     }
 
     fn turn_over(&mut self, it: &mut SeriesLine, share: Option<f64>) -> Result<(), ContactError> {

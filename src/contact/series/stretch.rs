@@ -93,7 +93,19 @@ impl SeriesLine<'_> {
         stick.half_width *= factor;
         stick.centre = pressure.centre + upstream * (pressure.half_width - stick.half_width);
         stick.terms.iter_mut().for_each(|term| *term *= factor);
-        self.place_shear();
+    }
+
+    /// Makes the stretch that sticks longer by a factor, with a shear that differs from the present one and its root by the
+    /// square of the change.
+    pub fn absorb_root(&mut self, factor: f64) {
+        self.tractions.stick = self.tractions.stick.stretched(factor, self.upstream());
+    }
+
+    /// Change of the root per share of the patch that sticks as far as the tractions stay the same \[Pa]: to first order they
+    /// do, around a solution.
+    pub fn root_by_share(&self) -> f64 {
+        let Tractions { pressure, stick, .. } = &self.tractions;
+        -stick.root_by_length(self.upstream()) * pressure.half_width / stick.half_width
     }
 
     /// Tractions of the stretch that sticks, with the smooth displacements `surface` of the friction of slip.

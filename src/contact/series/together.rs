@@ -15,7 +15,7 @@ use crate::linalg::{DenseSystem, POINTS};
 impl SeriesContact<'_> {
     /// Solves for the shear of stretches of the half-lengths `halves` \[m] that stick from the leading edges on
     /// (`None`: nothing sticks on this line), and for the motions that are not prescribed. Writes the strengths of the
-    /// roots at the ends where slip begins to `roots` \[Pa].
+    /// roots at the ends where slip begins to `roots` \[Pa]. Shear and displacements have their places still to come.
     pub fn stick(&mut self, halves: &[Option<f64>], roots: &mut [f64]) -> Result<(), ContactError> {
         self.lines.iter_mut().zip(halves).for_each(|(line, half)| line.begin_stretch(*half));
         self.exchange();
@@ -27,9 +27,7 @@ impl SeriesContact<'_> {
         let slips = self.share(&stretches)?;
         for (((line, stretch), slip), root) in self.lines.iter_mut().zip(&stretches).zip(&slips).zip(roots) {
             *root = stretch.as_ref().map_or(0.0, |stretch| line.take(&stretch.tractions(slip)));
-            line.place_shear();
         }
-        self.displace();
         Ok(())
     }
 
