@@ -30,7 +30,7 @@ const SHARE: f64 = 1e-3;
 pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let mut search = ConeSearch::new(contact);
     search.write(contact);
-    let (mut normal, mut settling) = (contact.press_under_shear(PRESSED, CLOSE)?, Settling::new(contact));
+    let (mut normal, mut settling) = (contact.press_under_shear(PRESSED, CLOSE)?, Settling::by_errors(contact));
     let mut last = None;
     for _ in 0..MOST {
         let before = Motions::of(contact);

@@ -98,7 +98,7 @@ impl Settling {
     }
 
     /// An end by the errors that iterations leave.
-    fn by_errors(contact: &SeriesContact) -> Self {
+    pub fn by_errors(contact: &SeriesContact) -> Self {
         Self::within(LEFT_OVER, BEHIND, contact)
     }
 
