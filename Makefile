@@ -277,7 +277,8 @@ $(SBOM): Cargo.toml Cargo.lock slave/Cargo.toml packaging/sbom.py
 	$(PYTHON) packaging/sbom.py --out $@
 
 $(SBOM_ALL): Cargo.toml Cargo.lock slave/Cargo.toml packaging/sbom.py
-	$(PYTHON) packaging/sbom.py --out $@ --target x86_64-unknown-linux-gnu --target x86_64-pc-windows-gnu
+	$(PYTHON) packaging/sbom.py --out $@ --target x86_64-unknown-linux-gnu --target x86_64-pc-windows-gnu \
+		--target aarch64-unknown-linux-gnu
 
 # Together with the product, whose dependencies then keep their features and are not compiled anew.
 $(COACH): $(BUILT) $(shell find coach -type f)
@@ -292,9 +293,11 @@ $(FMU_ALL): $(BUILT) $(PLATFORMS) $(SBOM_ALL) packaging/build packaging/mingw-li
 	$(PYTHON) packaging/check.py $@.new
 	mv $@.new $@
 
-# The libraries of the other archive have both interfaces.
+# The libraries of the other archive have both interfaces. FMI 3.0 has a name for Linux on ARM as well.
 $(FMU_ALL3): $(FMU_ALL)
+	arm=target/aarch64-linux/wheelrail.so; \
 	$(BINARY) pack --fmi 3 --out $@.new --binary x86_64-linux=target/linux64/wheelrail.so --binary x86_64-windows=target/win64/wheelrail.dll \
+		$$(test ! -f $$arm || echo --binary aarch64-linux=$$arm) \
 		--resources resources --sbom $(SBOM_ALL) --cache $(CACHE)
 	$(PYTHON) packaging/check.py $@.new
 	mv $@.new $@
