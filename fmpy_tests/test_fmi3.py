@@ -215,6 +215,47 @@ def test_ramps_as_inputs_are_those_of_input_derivatives(fmu, fmu3):
     assert abs(held / inputs[0][1] - 1.0) > 0.01
 
 
+def test_ramps_by_intermediate_update_are_those_of_input_derivatives(fmu, fmu3):
+    """Through fmpy's own functions: the master is asked for moment and load within steps of 5 ms."""
+    h, steps = 5e-3, 20
+    names, work = ["drive.moment", "drive.load"], fmu3.variables["energy.hub_work"].valueReference
+    references = [fmu3.variables[name].valueReference for name in names]
+    slave, asked = unloaded(fmu3, "wheel"), []
+    present, rates = [0.0, 1e5], [-1e5, 0.0]
+
+    def answer(environment, time, *_):
+        asked.append(time)
+        since = time - h * ((len(asked) - 1) // 4)
+        slave.setFloat64(references, [value + since * rate for value, rate in zip(present, rates)])
+
+    slave.instantiate(intermediateUpdate=answer, requiredIntermediateVariables=references)
+    try:
+        slave.setupExperiment()
+        slave.enterInitializationMode()
+        slave.exitInitializationMode()
+        for k in range(steps):
+            rates[1] = 1e6 * (1 if k % 2 else -1)
+            slave.doStep(k * h, h)
+            present = [value + h * rate for value, rate in zip(present, rates)]
+            assert slave.getFloat64(references) == pytest.approx(present, rel=1e-12)
+        (found,) = slave.getFloat64([work])
+    finally:
+        slave.freeInstance()
+    _, expected = ramped(Wheel(fmu), lambda wheel, rates: wheel.set_rates(rates))
+    print(f"work of the hub: {found!r} J by intermediate update, {expected!r} J by derivatives of FMI 2.0")
+    assert asked == pytest.approx([h * (k + share) for k in range(steps) for share in (0.25, 0.5, 0.75, 1.0)], abs=1e-12)
+    assert found == pytest.approx(expected, rel=1e-9)
+
+
+def test_inputs_that_can_be_given_within_steps_are_those_with_ramps(fmu3):
+    declared = etree.parse(str(Path(fmu3.directory, "modelDescription.xml"))).getroot()
+    assert declared.find("CoSimulation").get("providesIntermediateUpdate") == "true"
+    rows = declared.findall("ModelVariables/*[@intermediateUpdate='true']")
+    names = {row.get("name") for row in rows}
+    assert names == {name.removesuffix("_rate") for name in fmu3.variables if name.endswith("_rate") and name != "rail.elevation_rate"}
+    assert {row.get("causality") for row in rows} == {"input"} and {row.get("variability") for row in rows} == {"continuous"}
+
+
 def test_motions_move_to_the_same_ends_in_both_versions(fmu, fmu3):
     runs = []
     for opened in (fmu, fmu3):

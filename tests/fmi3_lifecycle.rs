@@ -28,7 +28,13 @@ fn instantiation_with_wrong_arguments_gives_null_and_a_logged_reason() {
     refused(Arguments { event_mode: 2, ..Default::default() }, "eventModeUsed = 2 is no fmi3Boolean");
     refused(Arguments { visible: 255, ..Default::default() }, "visible = 255 ");
     refused(Arguments { logging: 3, ..Default::default() }, "loggingOn = 3 ");
-    refused(Arguments { intermediate: vec![201], ..Default::default() }, "requiredIntermediateVariables");
+    for other in ["drive.velocity", "wheel.radius", "contact.force_x", "drive.moment_rate"] {
+        let intermediate = vec![reference("drive.moment"), reference(other)];
+        refused(
+            Arguments { intermediate, ..Default::default() },
+            "which is no variable with intermediateUpdate = true",
+        );
+    }
     assert!(!fmi3GetVersion().is_null());
     let none = [
         unsafe_free(|| {
@@ -320,14 +326,7 @@ fn random_legal_and_illegal_calls_end_with_a_status_and_finite_outputs() {
 
 /// A wheel that a brake locks at low adhesion, with what its master allows.
 fn braked(early_return: u8) -> Wheel {
-    let wheel = Wheel::try_new(&Arguments { early_return, ..Default::default() }).ok().unwrap();
-    for (name, value) in [("mesh.elements_per_half_width", 4), ("mesh.grid_elements_per_half_width", 4)] {
-        assert_eq!(wheel.set_int32(name, value), Status::Ok);
-    }
-    assert_eq!(
-        (wheel.set_int32("solver.modes_wheel", 6), wheel.set_int32("solver.modes_rail", 4)),
-        (Status::Ok, Status::Ok)
-    );
+    let wheel = Wheel::coarse_with(&Arguments { early_return, ..Default::default() });
     assert_eq!(wheel.set("initial.velocity", 5.0), Status::Ok);
     assert_eq!(wheel.set("friction.coefficient", 0.1), Status::Ok);
     wheel.initialize();
