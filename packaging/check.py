@@ -194,6 +194,9 @@ def run_windows(version, library, arguments, directory):
     identity, resources, *references = arguments
     drive = "file:///Z:" if version == "2.0" else "Z:"
     printed = output("wine", host, library, identity, drive + resources, *references, env=environment)
+    # Its server writes to its folder for some seconds more, and the folder could not be removed.
+    if server := shutil.which("wineserver", path=os.pathsep.join([os.environ["PATH"], "/usr/lib/wine"])):
+        output(server, "--wait", env=environment)
     return rows(printed), output("wine", "--version").strip()
 
 
@@ -231,7 +234,7 @@ def main():
     parser.add_argument("fmu", type=Path)
     parser.add_argument("--run", action="store_true", help="also run both binaries and compare")
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as temporary:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
         directory = Path(temporary)
         fmu = directory / "fmu"
         with zipfile.ZipFile(arguments.fmu) as archive:
