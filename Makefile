@@ -10,7 +10,7 @@
 # make ssp       target/coach_and_wheels.ssp and target/osp/: a coach and four wheelsets for other people's masters
 # make reference the run in examples/reference that users can compare theirs with
 # make fmu-all   target/wheelrail-all.fmu and, of FMI 3.0, target/wheelrail-fmi3-all.fmu for Linux (glibc 2.17) and Windows; says which compilers are missing
-# make platforms-check both binaries of them in a master written in C, the one for Windows under wine: results compared
+# make platforms-check all binaries of them in a master written in C, that for Windows under wine, that for ARM under qemu: results compared
 # make python-wheel  the Python package with the FMU of this machine and the examples inside: target/wheelrail-*.whl
 # make python-dist   the same with the FMU for Linux and Windows, and an sdist for other platforms, in target/dist
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
@@ -90,7 +90,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test test-tools test-rust test-fmpy quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs site describe clean
+.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments packed quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -100,6 +100,15 @@ help:
 	@sed -n '/^#/!q; s/^# //p' $(firstword $(MAKEFILE_LIST))
 
 test: test-tools test-rust test-fmpy
+
+# What the tests need: `.ci/run` makes it side by side.
+environments: $(INSTALLED) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
+
+packed: $(FMU) $(FMU3)
+
+test-programs: $(COACH)
+	$(RELEASE_CARGO) test --release --locked --quiet --no-run -p wheelrail -p wheelrail-slave --lib --bins --tests
+	$(RELEASE_CARGO) test --release --locked --quiet --no-run -p wheelrail-thesis --lib --bins --tests
 
 test-tools:
 	$(PYTHON) -m unittest discover --quiet tools
@@ -229,10 +238,12 @@ LEAK_TESTS := a_run_from_a_saved_state_is_the_first_bit_for_bit a_serialized_sta
 	handles_that_are_foreign_freed_or_made_up_are_refused_and_never_followed
 LEAK_TESTS3 := a_damaged_state_is_refused_and_a_whole_one_continues_bit_for_bit what_this_fmu_does_not_have_is_refused_politely \
 	adjoint_derivatives_are_the_transpose_of_directional_ones
+LEAK_TESTS_WITHIN := everything_else_is_refused_within_a_step_and_changes_nothing a_master_that_frees_the_instance_within_a_step_gets_an_error \
+	a_step_that_cannot_be_computed_half_way_is_taken_back_as_a_whole
 
 leak-check:
 	@if command -v valgrind > /dev/null; then \
-		for tests in "fmi_state $(LEAK_TESTS)" "fmi3_lifecycle $(LEAK_TESTS3)"; do \
+		for tests in "fmi_state $(LEAK_TESTS)" "fmi3_lifecycle $(LEAK_TESTS3)" "fmi3_intermediate $(LEAK_TESTS_WITHIN)"; do \
 			set -- $$tests; program=$$1; shift; \
 			WHEELRAIL_KEEP_LOADED=1 $(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' \
 				--test $$program -- --test-threads 1 --exact "$$@" > $(TARGET)/leak-check.log 2>&1; status=$$?; \

@@ -28,13 +28,6 @@ fn instantiation_with_wrong_arguments_gives_null_and_a_logged_reason() {
     refused(Arguments { event_mode: 2, ..Default::default() }, "eventModeUsed = 2 is no fmi3Boolean");
     refused(Arguments { visible: 255, ..Default::default() }, "visible = 255 ");
     refused(Arguments { logging: 3, ..Default::default() }, "loggingOn = 3 ");
-    for other in ["drive.velocity", "wheel.radius", "contact.force_x", "drive.moment_rate"] {
-        let intermediate = vec![reference("drive.moment"), reference(other)];
-        refused(
-            Arguments { intermediate, ..Default::default() },
-            "which is no variable with intermediateUpdate = true",
-        );
-    }
     assert!(!fmi3GetVersion().is_null());
     let none = [
         unsafe_free(|| {

@@ -7,7 +7,7 @@
 use crate::array_access::{ArrayAccess, check_length};
 use crate::instance::Instance;
 use crate::lifecycle::{Call, Phase};
-use crate::log::{CallError, Outcome};
+use crate::log::{CallError, Outcome, Status};
 use crate::value::{ElementType, Reference, Scalar};
 use std::collections::VecDeque;
 
@@ -135,7 +135,7 @@ impl Inquiry {
 }
 
 impl<S: ArrayAccess> Instance<S> {
-    /// Takes the variables that a master may set within steps.
+    /// Takes the variables that a master may set within steps; others that it names are told and left out.
     pub fn require_intermediate(&mut self, references: &[Reference]) -> Outcome {
         if let Some(first) = references.first()
             && !S::INTERMEDIATE_UPDATE
@@ -143,14 +143,19 @@ impl<S: ArrayAccess> Instance<S> {
             let why = "this FMU has no intermediate update (providesIntermediateUpdate = false): require no variables";
             return Err(CallError::error(format!("requiredIntermediateVariables begins with {first}, but {why}")));
         }
-        if let Some(other) = references.iter().find(|reference| !S::is_intermediate(**reference)) {
-            let why = "is no variable with intermediateUpdate = true";
-            return Err(CallError::error(format!("requiredIntermediateVariables has {other}, which {why}")));
+        let (mut chosen, others): (Vec<_>, Vec<_>) =
+            references.iter().partition(|reference| S::is_intermediate(**reference));
+        if let Some(first) = others.first() {
+            let message = format!(
+                "requiredIntermediateVariables has {} variables without intermediateUpdate = true, such as {first}: they are not \
+                 accessed within steps",
+                others.len()
+            );
+            self.log().report(Status::Warning, &message);
         }
-        let mut references = references.to_vec();
-        references.sort_unstable();
-        references.dedup();
-        self.intermediate = references;
+        chosen.sort_unstable();
+        chosen.dedup();
+        self.intermediate = chosen;
         Ok(())
     }
 
@@ -186,8 +191,11 @@ impl<S: ArrayAccess> Instance<S> {
         check_length("nValues", values.len(), references.len())?;
         let Some(inquiry) = &self.inquiry else { return Err(CallError::error("no value is asked for")) };
         let place = |reference: &Reference| {
-            let missing =
-                || format!("{reference} is none of requiredIntermediateVariables: only these can be set within a step");
+            let missing = || {
+                format!(
+                    "{reference} is none of the inputs in requiredIntermediateVariables: only these can be set within a step"
+                )
+            };
             inquiry.references.binary_search(reference).map_err(|_| CallError::error(missing()))
         };
         let places = references.iter().map(place).collect::<Outcome<Vec<usize>>>()?;

@@ -14,7 +14,7 @@ use wheelrail_slave::c_abi::v3::types::*;
 /// A message: status, category, text.
 pub type Heard = (Status, String, String);
 
-/// What a master does when it is asked for its inputs at a time within a step, with the instance.
+/// Answer of a master that is asked for its inputs at a time within a step, with the instance.
 pub type Answer = Box<dyn FnMut(&Wheel, f64)>;
 
 /// Environment of a master: the messages it has got, and its answer to questions within steps.
@@ -149,7 +149,7 @@ impl Wheel {
         Wheel::coarse_with(&Arguments::default())
     }
 
-    /// The same with other arguments.
+    /// Instantiated with such a mesh and basis, and with arguments.
     pub fn coarse_with(arguments: &Arguments) -> Wheel {
         let wheel = Wheel::try_new(arguments).unwrap_or_else(|heard| panic!("{heard:?}"));
         for (name, value) in [
