@@ -13,6 +13,7 @@
 # make platforms-check all binaries of them in a master written in C, that for Windows under wine, that for ARM under qemu: results compared
 # make python-wheel  the Python package with the FMU of this machine and the examples inside: target/wheelrail-*.whl
 # make python-dist   the same with the FMU for Linux and Windows, and an sdist for other platforms, in target/dist
+# make release   what is handed out with a version, in target/handout: FMUs for several platforms, wheel, sdist, SSP, pages, notes, checksums
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV, plot and page in results/low_adhesion/
 #                make train SCENARIO=my/scenario.json; FORCE=1 overwrites results that are there
@@ -65,7 +66,9 @@ SBOM := target/wheelrail.cdx.json
 COACH := $(TARGET)/release/.coach
 FMU_ALL := target/wheelrail-all.fmu
 FMU_ALL3 := target/wheelrail-fmi3-all.fmu
+SLIM_ALL := target/wheelrail-slim-all.fmu
 SBOM_ALL := target/wheelrail-all.cdx.json
+HANDOUT := target/handout
 CACHE := target
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -90,7 +93,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs site describe clean
+.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -168,6 +171,9 @@ python-wheel: $(FMU) $(INSTALLED)
 python-dist: $(FMU_ALL) $(INSTALLED)
 	$(PY) packaging/wheel.py $(FMU_ALL) --out target/dist
 	$(PY) packaging/wheel.py --sdist --out target/dist
+
+release: $(FMU_ALL) $(FMU_ALL3) $(SLIM_ALL) python-dist ssp site
+	$(PYTHON) packaging/handout.py $(HANDOUT)
 
 masters: $(FMU) $(INSTALLED)
 	$(PY) examples/ex02_masters.py --fmu $(FMU) --out $(OUT) $(ARGS)
@@ -314,6 +320,10 @@ $(FMU_ALL3): $(FMU_ALL)
 		--resources resources --sbom $(SBOM_ALL) --cache $(CACHE)
 	$(PYTHON) packaging/check.py $@.new
 	mv $@.new $@
+
+$(SLIM_ALL): $(FMU_ALL)
+	$(BINARY) pack --no-profiles --out $@ --binary linux64=target/linux64/wheelrail.so --binary win64=target/win64/wheelrail.dll \
+		--resources resources --sbom $(SBOM_ALL) --cache $(CACHE)
 
 $(BUILT): $(SOURCES)
 	$(RELEASE_CARGO) build --release --locked
