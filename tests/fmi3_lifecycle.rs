@@ -362,3 +362,33 @@ fn a_step_returns_early_where_the_wheel_locks_and_is_released_and_the_run_has_th
         assert!((a - b).abs() < 1e-4 * b.abs().max(1.0));
     }
 }
+
+#[test]
+fn an_early_return_is_within_one_internal_step_of_the_lock() {
+    let fine = braked(0);
+    let short = 2e-5;
+    assert_eq!(fine.set("brake.torque", 3e4), Status::Ok);
+    let mut steps = 0;
+    while fine.boolean("brake.locked") == 0 {
+        assert_eq!(fine.step(short * f64::from(steps), short), Status::Ok);
+        steps += 1;
+        assert!(steps < 1000, "the wheel does not lock");
+    }
+    let wheel = braked(1);
+    assert_eq!(wheel.set("brake.torque", 3e4), Status::Ok);
+    let (mut start, mut told) = (0.0, wheel.told(0.0, 5e-3).1);
+    while told.early == 0 {
+        start = told.time;
+        told = wheel.told(start, 5e-3).1;
+    }
+    let (expected, inner) =
+        (short * f64::from(steps), (told.time - start) / f64::from(wheel.int32("solver.internal_steps")));
+    println!(
+        "locks at {:.3} ms, in steps of {short} s at {:.3} ms; internal steps of {:.3} ms",
+        1e3 * told.time,
+        1e3 * expected,
+        1e3 * inner
+    );
+    assert_eq!(wheel.boolean("brake.locked"), 1);
+    assert!((told.time - expected).abs() < inner + short);
+}

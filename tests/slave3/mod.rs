@@ -246,6 +246,11 @@ impl Wheel {
     pub fn set_int32(&self, name: &str, value: i32) -> Status {
         unsafe { fmi3SetInt32(self.instance, &reference(name), 1, &value, 1) }
     }
+    pub fn int32(&self, name: &str) -> i32 {
+        let mut value = -1;
+        assert_eq!(unsafe { fmi3GetInt32(self.instance, &reference(name), 1, &mut value, 1) }, Status::Ok);
+        value
+    }
     pub fn set_item(&self, name: &str, value: i64) -> Status {
         unsafe { fmi3SetInt64(self.instance, &reference(name), 1, &value, 1) }
     }
