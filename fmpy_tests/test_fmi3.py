@@ -87,6 +87,25 @@ def test_both_versions_have_the_same_variables(fmu, fmu3):
     assert [v.name for v in fmu3.description.modelVariables if v.causality == "independent"] == ["time"]
 
 
+def dependencies(root, path, elements):
+    """Declared dependencies by name, `None` for all; `elements` names what an entry of the structure stands for."""
+    return {name: entry.get("dependencies") for entry in root.findall(f"ModelStructure/{path}") for name in elements(entry)}
+
+
+def test_both_versions_declare_the_same_dependencies(fmu, fmu3):
+    """FMI 3.0 by whole arrays, whose elements all depend on the same."""
+    two, three = (etree.parse(str(Path(f.directory, "modelDescription.xml"))).getroot() for f in (fmu, fmu3))
+    names = [v.get("name") for v in two.find("ModelVariables")]
+    elements = {}
+    for name, variable in fmu3.variables.items():
+        elements.setdefault(fmu3.places[variable.valueReference].reference, []).append(name)
+    for old, new in (("Outputs", "Output"), ("InitialUnknowns", "InitialUnknown")):
+        before = dependencies(two, f"{old}/Unknown", lambda entry: [names[int(entry.get("index")) - 1]])
+        now = dependencies(three, new, lambda entry: elements[int(entry.get("valueReference"))])
+        assert before == now and len(now) > 900
+    assert set(now.values()) == {None, ""}
+
+
 def outputs_of(wheel):
     """All outputs of a wheel, bit for bit."""
     names = [v.name for v in wheel.fmu.variables.values() if v.causality == "output"]
@@ -252,7 +271,8 @@ def test_inputs_that_can_be_given_within_steps_are_those_with_ramps(fmu3):
     assert declared.find("CoSimulation").get("providesIntermediateUpdate") == "true"
     rows = declared.findall("ModelVariables/*[@intermediateUpdate='true']")
     names = {row.get("name") for row in rows}
-    assert names == {name.removesuffix("_rate") for name in fmu3.variables if name.endswith("_rate") and name != "rail.elevation_rate"}
+    inputs = [name for name, variable in fmu3.variables.items() if variable.causality == "input"]
+    assert names == {name for name in inputs if f"{name}_rate" in inputs and name != "rail.elevation"}
     assert {row.get("causality") for row in rows} == {"input"} and {row.get("variability") for row in rows} == {"continuous"}
 
 
