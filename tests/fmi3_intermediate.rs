@@ -214,6 +214,8 @@ fn a_step_that_cannot_be_computed_half_way_is_taken_back_as_a_whole() {
     let (status, told) = wheel.answering(0.0, STEP, Box::new(much));
     assert_eq!((status, told.time, told.terminate), (Status::Discard, 0.0, 0));
     assert_eq!((outputs(&wheel), wheel.float64("drive.load")), (before, 1e5));
+    let (status, told) = wheel.answering(0.0, STEP, Box::new(much));
+    assert_eq!((status, told.terminate), (Status::Discard, 1), "the same step failed twice");
     let (status, told) = wheel.answering(0.0, STEP, Box::new(|_, _| {}));
     assert_eq!((status, told.time), (Status::Ok, STEP));
     assert_eq!(twin.step(0.0, STEP), Status::Ok);

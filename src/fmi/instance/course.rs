@@ -4,7 +4,7 @@ use super::{WheelSlave, derivatives};
 use crate::config::Config;
 use crate::fmi::variable::{Access, Value, Variable};
 use wheelrail_slave::intermediate::Point;
-use wheelrail_slave::{CallError, Life, Outcome, Slave};
+use wheelrail_slave::{CallError, Life, Outcome, Slave, Status};
 
 impl WheelSlave {
     /// Present values of real inputs, each with the distance from a straight line that matters: `solver.tolerance`, or where that is
@@ -40,11 +40,15 @@ impl WheelSlave {
     /// ramps as there are lines. Returns the time it took, less than that of the last point only where steps may end early. On
     /// error everything is as before.
     pub fn take_course(&mut self, start: f64, inputs: &[&Variable], points: &[Point], life: &Life) -> Outcome<f64> {
-        let settings = self.settings.clone();
+        let (settings, failure) = (self.settings.clone(), self.failure);
         let checkpoint = (points.len() > 2).then(|| self.save().checkpoint).flatten();
         let done = self.take_lines(start, inputs, points, life);
-        if done.is_err() {
+        if let Err(error) = &done {
             self.settings = settings;
+            // The pieces before the one that failed have succeeded in between.
+            if error.status == Status::Discard && points.len() > 2 {
+                self.hopeless = failure.is_some() && failure == self.failure;
+            }
             if checkpoint.is_some() {
                 let config = self.config.clone();
                 self.resume(checkpoint.as_ref(), &config, life)?;
