@@ -10,9 +10,10 @@
 # make ssp       target/coach_and_wheels.ssp and target/osp/: a coach and four wheelsets for other people's masters
 # make reference the run in examples/reference that users can compare theirs with
 # make fmu-all   target/wheelrail-all.fmu and, of FMI 3.0, target/wheelrail-fmi3-all.fmu for Linux (glibc 2.17) and Windows; says which compilers are missing
-# make platforms-check both binaries of them in a master written in C, the one for Windows under wine: results compared
+# make platforms-check all binaries of them in a master written in C, that for Windows under wine, that for ARM under qemu: results compared
 # make python-wheel  the Python package with the FMU of this machine and the examples inside: target/wheelrail-*.whl
 # make python-dist   the same with the FMU for Linux and Windows, and an sdist for other platforms, in target/dist
+# make release   what is handed out with a version, in target/handout: FMUs for several platforms, wheel, sdist, SSP, pages, notes, checksums
 # make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV, plot and page in results/low_adhesion/
 #                make train SCENARIO=my/scenario.json; FORCE=1 overwrites results that are there
@@ -65,7 +66,9 @@ SBOM := target/wheelrail.cdx.json
 COACH := $(TARGET)/release/.coach
 FMU_ALL := target/wheelrail-all.fmu
 FMU_ALL3 := target/wheelrail-fmi3-all.fmu
+SLIM_ALL := target/wheelrail-slim-all.fmu
 SBOM_ALL := target/wheelrail-all.cdx.json
+HANDOUT := target/handout
 CACHE := target
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -90,7 +93,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test test-tools test-rust test-fmpy quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs site describe clean
+.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -100,6 +103,17 @@ help:
 	@sed -n '/^#/!q; s/^# //p' $(firstword $(MAKEFILE_LIST))
 
 test: test-tools test-rust test-fmpy
+
+# What the tests need: `.ci/run` makes it side by side.
+environments: $(INSTALLED) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
+
+built: $(BUILT)
+
+packed: $(FMU) $(FMU3)
+
+test-programs: $(COACH)
+	$(RELEASE_CARGO) test --release --locked --quiet --no-run -p wheelrail -p wheelrail-slave --lib --bins --tests
+	$(RELEASE_CARGO) test --release --locked --quiet --no-run -p wheelrail-thesis --lib --bins --tests
 
 test-tools:
 	$(PYTHON) -m unittest discover --quiet tools
@@ -157,6 +171,9 @@ python-wheel: $(FMU) $(INSTALLED)
 python-dist: $(FMU_ALL) $(INSTALLED)
 	$(PY) packaging/wheel.py $(FMU_ALL) --out target/dist
 	$(PY) packaging/wheel.py --sdist --out target/dist
+
+release: $(FMU_ALL) $(FMU_ALL3) $(SLIM_ALL) python-dist ssp site
+	$(PYTHON) packaging/handout.py $(HANDOUT)
 
 masters: $(FMU) $(INSTALLED)
 	$(PY) examples/ex02_masters.py --fmu $(FMU) --out $(OUT) $(ARGS)
@@ -229,10 +246,12 @@ LEAK_TESTS := a_run_from_a_saved_state_is_the_first_bit_for_bit a_serialized_sta
 	handles_that_are_foreign_freed_or_made_up_are_refused_and_never_followed
 LEAK_TESTS3 := a_damaged_state_is_refused_and_a_whole_one_continues_bit_for_bit what_this_fmu_does_not_have_is_refused_politely \
 	adjoint_derivatives_are_the_transpose_of_directional_ones
+LEAK_TESTS_WITHIN := everything_else_is_refused_within_a_step_and_changes_nothing a_master_that_frees_the_instance_within_a_step_gets_an_error \
+	a_step_that_cannot_be_computed_half_way_is_taken_back_as_a_whole
 
 leak-check:
 	@if command -v valgrind > /dev/null; then \
-		for tests in "fmi_state $(LEAK_TESTS)" "fmi3_lifecycle $(LEAK_TESTS3)"; do \
+		for tests in "fmi_state $(LEAK_TESTS)" "fmi3_lifecycle $(LEAK_TESTS3)" "fmi3_intermediate $(LEAK_TESTS_WITHIN)"; do \
 			set -- $$tests; program=$$1; shift; \
 			WHEELRAIL_KEEP_LOADED=1 $(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' \
 				--test $$program -- --test-threads 1 --exact "$$@" > $(TARGET)/leak-check.log 2>&1; status=$$?; \
@@ -277,7 +296,8 @@ $(SBOM): Cargo.toml Cargo.lock slave/Cargo.toml packaging/sbom.py
 	$(PYTHON) packaging/sbom.py --out $@
 
 $(SBOM_ALL): Cargo.toml Cargo.lock slave/Cargo.toml packaging/sbom.py
-	$(PYTHON) packaging/sbom.py --out $@ --target x86_64-unknown-linux-gnu --target x86_64-pc-windows-gnu
+	$(PYTHON) packaging/sbom.py --out $@ --target x86_64-unknown-linux-gnu --target x86_64-pc-windows-gnu \
+		--target aarch64-unknown-linux-gnu
 
 # Together with the product, whose dependencies then keep their features and are not compiled anew.
 $(COACH): $(BUILT) $(shell find coach -type f)
@@ -292,12 +312,18 @@ $(FMU_ALL): $(BUILT) $(PLATFORMS) $(SBOM_ALL) packaging/build packaging/mingw-li
 	$(PYTHON) packaging/check.py $@.new
 	mv $@.new $@
 
-# The libraries of the other archive have both interfaces.
+# The libraries of the other archive have both interfaces. FMI 3.0 has a name for Linux on ARM as well.
 $(FMU_ALL3): $(FMU_ALL)
+	arm=target/aarch64-linux/wheelrail.so; \
 	$(BINARY) pack --fmi 3 --out $@.new --binary x86_64-linux=target/linux64/wheelrail.so --binary x86_64-windows=target/win64/wheelrail.dll \
+		$$(test ! -f $$arm || echo --binary aarch64-linux=$$arm) \
 		--resources resources --sbom $(SBOM_ALL) --cache $(CACHE)
 	$(PYTHON) packaging/check.py $@.new
 	mv $@.new $@
+
+$(SLIM_ALL): $(FMU_ALL)
+	$(BINARY) pack --no-profiles --out $@ --binary linux64=target/linux64/wheelrail.so --binary win64=target/win64/wheelrail.dll \
+		--resources resources --sbom $(SBOM_ALL) --cache $(CACHE)
 
 $(BUILT): $(SOURCES)
 	$(RELEASE_CARGO) build --release --locked

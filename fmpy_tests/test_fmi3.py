@@ -87,6 +87,25 @@ def test_both_versions_have_the_same_variables(fmu, fmu3):
     assert [v.name for v in fmu3.description.modelVariables if v.causality == "independent"] == ["time"]
 
 
+def dependencies(root, path, elements):
+    """Declared dependencies by name, `None` for all; `elements` names what an entry of the structure stands for."""
+    return {name: entry.get("dependencies") for entry in root.findall(f"ModelStructure/{path}") for name in elements(entry)}
+
+
+def test_both_versions_declare_the_same_dependencies(fmu, fmu3):
+    """FMI 3.0 by whole arrays, whose elements all depend on the same."""
+    two, three = (etree.parse(str(Path(f.directory, "modelDescription.xml"))).getroot() for f in (fmu, fmu3))
+    names = [v.get("name") for v in two.find("ModelVariables")]
+    elements = {}
+    for name, variable in fmu3.variables.items():
+        elements.setdefault(fmu3.places[variable.valueReference].reference, []).append(name)
+    for old, new in (("Outputs", "Output"), ("InitialUnknowns", "InitialUnknown")):
+        before = dependencies(two, f"{old}/Unknown", lambda entry: [names[int(entry.get("index")) - 1]])
+        now = dependencies(three, new, lambda entry: elements[int(entry.get("valueReference"))])
+        assert before == now and len(now) > 900
+    assert set(now.values()) == {None, ""}
+
+
 def outputs_of(wheel):
     """All outputs of a wheel, bit for bit."""
     names = [v.name for v in wheel.fmu.variables.values() if v.causality == "output"]
@@ -213,6 +232,48 @@ def test_ramps_as_inputs_are_those_of_input_derivatives(fmu, fmu3):
     _, held = ramped(Wheel(fmu), hold)
     print(f"work of the hub: {inputs[0][1]:.1f} J with rates, {held:.1f} J with held values")
     assert abs(held / inputs[0][1] - 1.0) > 0.01
+
+
+def test_ramps_by_intermediate_update_are_those_of_input_derivatives(fmu, fmu3):
+    """Through fmpy's own functions: the master is asked for moment and load within steps of 5 ms."""
+    h, steps = 5e-3, 20
+    names, work = ["drive.moment", "drive.load"], fmu3.variables["energy.hub_work"].valueReference
+    references = [fmu3.variables[name].valueReference for name in names]
+    slave, asked = unloaded(fmu3, "wheel"), []
+    present, rates = [0.0, 1e5], [-1e5, 0.0]
+
+    def answer(environment, time, *_):
+        asked.append(time)
+        since = time - h * ((len(asked) - 1) // 4)
+        slave.setFloat64(references, [value + since * rate for value, rate in zip(present, rates)])
+
+    slave.instantiate(intermediateUpdate=answer, requiredIntermediateVariables=references)
+    try:
+        slave.setupExperiment()
+        slave.enterInitializationMode()
+        slave.exitInitializationMode()
+        for k in range(steps):
+            rates[1] = 1e6 * (1 if k % 2 else -1)
+            slave.doStep(k * h, h)
+            present = [value + h * rate for value, rate in zip(present, rates)]
+            assert slave.getFloat64(references) == pytest.approx(present, rel=1e-12)
+        (found,) = slave.getFloat64([work])
+    finally:
+        slave.freeInstance()
+    _, expected = ramped(Wheel(fmu), lambda wheel, rates: wheel.set_rates(rates))
+    print(f"work of the hub: {found!r} J by intermediate update, {expected!r} J by derivatives of FMI 2.0")
+    assert asked == pytest.approx([h * (k + share) for k in range(steps) for share in (0.25, 0.5, 0.75, 1.0)], abs=1e-12)
+    assert found == pytest.approx(expected, rel=1e-9)
+
+
+def test_inputs_that_can_be_given_within_steps_are_those_with_ramps(fmu3):
+    declared = etree.parse(str(Path(fmu3.directory, "modelDescription.xml"))).getroot()
+    assert declared.find("CoSimulation").get("providesIntermediateUpdate") == "true"
+    rows = declared.findall("ModelVariables/*[@intermediateUpdate='true']")
+    names = {row.get("name") for row in rows}
+    inputs = [name for name, variable in fmu3.variables.items() if variable.causality == "input"]
+    assert names == {name for name in inputs if f"{name}_rate" in inputs and name != "rail.elevation"}
+    assert {row.get("causality") for row in rows} == {"input"} and {row.get("variability") for row in rows} == {"continuous"}
 
 
 def test_motions_move_to_the_same_ends_in_both_versions(fmu, fmu3):

@@ -1,7 +1,7 @@
 """Checks an FMU for Linux and Windows: `make fmu-all` and `make platforms-check` call this.
 
     python3 packaging/check.py FMU          what the binaries export and need, and their size
-    python3 packaging/check.py FMU --run    also runs both in a C master (host.c), Windows under wine, and compares
+    python3 packaging/check.py FMU --run    also runs them in a C master (host.c), Windows under wine, ARM under qemu, and compares
 """
 
 import argparse
@@ -22,12 +22,15 @@ BINARIES = {
     "2.0": ("binaries/linux64/wheelrail.so", "binaries/win64/wheelrail.dll"),
     "3.0": ("binaries/x86_64-linux/wheelrail.so", "binaries/x86_64-windows/wheelrail.dll"),
 }
+# Place of a third one, where it has been built; FMI 2.0 has no name for it.
+ARM = "binaries/aarch64-linux/wheelrail.so"
+ARM_GCC = "aarch64-linux-gnu"  # of the compiler that makes a master for it
 FUNCTIONS = 34 + 75  # of FMI 2.0 for co-simulation and of FMI 3.0; tests/fmi_library.rs lists them
 GLIBC = (2, 17)  # newest version that linux64 may need
-# Bytes of linux64. Without one of the savings of packaging/build it has more: the unused kernels of products of matrices alone are
+# Bytes of a library for Linux. Without one of the savings of packaging/build it has more: the unused kernels of products of matrices alone are
 # 1.4 MB. tests/fmi_library.rs watches the size of the ordinary library in every test run.
 SIZE = 6e6
-NEEDED = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "ld-linux-x86-64.so.2"}
+NEEDED = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
 # Functions that a system computes, each with other last digits: results would depend on it.
 MATHEMATICS = re.compile(r"(a?(sin|cos|tan)h?|sincos|atan2|exp|exp2|exp10|expm1|log|log2|log10|log1p|pow|cbrt|hypot|fma)f?")
 # Folders of whoever built a library; places in the source of crates are named from the name of the crate on.
@@ -80,22 +83,29 @@ def check_paths(binary):
     require(not found, f"{binary} names folders of this machine in {len(found)} places, such as {found[:3]}: see packaging/rustc-wrapper")
 
 
+def dynamic_symbols(text):
+    """Names of the dynamic symbols that a library defines, and of those that it takes from others, as readelf lists them."""
+    rows = [line.split() for line in text.splitlines() if re.match(r"\s+\d+: [0-9a-f]{16} ", line)]
+    known = [(row[6], row[7].split("@")[0]) for row in rows if len(row) > 7]
+    return [name for place, name in known if place != "UND"], [name for place, name in known if place == "UND"]
+
+
 def check_linux(binary):
-    """Exports, versions of glibc, libraries, functions of the system, size, symbols."""
-    rows = [line.split() for line in output("objdump", "-T", binary).splitlines() if re.match("[0-9a-f]{16} ", line)]
-    check_functions(binary, [row[-1] for row in rows if "*UND*" not in row])
-    check_mathematics(binary, [row[-1] for row in rows if "*UND*" in row])
-    text = output("objdump", "-p", binary)
-    versions = {tuple(map(int, version.split("."))) for version in re.findall(r"GLIBC_([0-9.]+)", text)}
+    """Exports, versions of glibc, libraries, functions of the system, size, symbols; of any processor."""
+    platform = binary.parent.name
+    defined, taken = dynamic_symbols(output("readelf", "--wide", "--dyn-syms", binary))
+    check_functions(binary, defined)
+    check_mathematics(binary, taken)
+    versions = {tuple(map(int, version.split("."))) for version in re.findall(r"GLIBC_([0-9.]+)", output("readelf", "--wide", "-V", binary))}
     require(versions, f"{binary} asks for no version of glibc: is it a library?")
     newest = ".".join(map(str, max(versions)))
     require(max(versions) <= GLIBC, f"{binary} needs glibc {newest}")
-    needed = set(re.findall(r"NEEDED +(\S+)", text))
-    require(needed <= NEEDED, f"{binary} needs {sorted(needed - NEEDED)}")
+    needed = set(re.findall(r"\(NEEDED\).*\[(.+)\]", output("readelf", "--wide", "-d", binary)))
+    require(needed and needed <= NEEDED, f"{binary} needs {sorted(needed - NEEDED) or 'no library: is it one?'}")
     size = binary.stat().st_size
     require(size < SIZE, f"{binary} has {size / 1e6:.2f} MB")
-    require(".symtab" not in output("objdump", "-h", binary), f"{binary} is not stripped")
-    print(f"linux64: {FUNCTIONS} functions, glibc {newest}, {size / 1e6:.2f} MB, needs {' '.join(sorted(needed))}")
+    require(".symtab" not in output("readelf", "--wide", "-S", binary), f"{binary} is not stripped")
+    print(f"{platform}: {FUNCTIONS} functions, glibc {newest}, {size / 1e6:.2f} MB, needs {' '.join(sorted(needed))}")
 
 
 def called_functions(headers, code):
@@ -168,26 +178,55 @@ def largest_difference(names, one, two):
     return worst
 
 
+def compare(platform, how, names, linux, other):
+    """Compares a run on another platform with that on Linux; `how` says where it ran."""
+    difference, name = largest_difference(names, linux, other)
+    print(f"{platform}: the same under {how}; largest difference {difference:.2e} ({name})")
+    require(difference <= TOLERANCE, f"{name} differs by {difference:.2e} between linux64 and {platform}")
+
+
+def run_windows(version, library, arguments, directory):
+    """Lines of the C master for Windows under wine, and the version of wine."""
+    gcc = "x86_64-w64-mingw32-gcc"
+    host = compiled(gcc, version, directory / "host.exe")
+    output(gcc, "-O1", "-Wall", "-Wextra", "-shared", HERE / "bcryptprimitives.c", "-o", directory / "bcryptprimitives.dll", "-ladvapi32")
+    environment = os.environ | {"WINEPREFIX": str(directory / "wine"), "WINEDEBUG": "-all"}
+    identity, resources, *references = arguments
+    drive = "file:///Z:" if version == "2.0" else "Z:"
+    printed = output("wine", host, library, identity, drive + resources, *references, env=environment)
+    # Its server writes to its folder for some seconds more, and the folder could not be removed.
+    if server := shutil.which("wineserver", path=os.pathsep.join([os.environ["PATH"], "/usr/lib/wine"])):
+        output(server, "--wait", env=environment)
+    return rows(printed), output("wine", "--version").strip()
+
+
+def run_arm(version, library, arguments, directory):
+    """Lines of the C master for Linux on ARM under qemu, and the version of qemu."""
+    host = compiled(f"{ARM_GCC}-gcc", version, directory / "host.arm", "-ldl")
+    printed = output("qemu-aarch64", "-L", f"/usr/{ARM_GCC}", host, library, *arguments)
+    return rows(printed), " ".join(output("qemu-aarch64", "--version").split()[:3])
+
+
 def run(fmu, directory):
-    """Runs both binaries and compares them."""
+    """Runs all binaries and compares them."""
     version, identity, names, references = outputs(fmu / "modelDescription.xml")
     scheme, resources = "file://" if version == "2.0" else "", (fmu / "resources").as_posix()
     host = compiled("cc", version, directory / "host", "-ldl")
     linux = rows(output(host, fmu / BINARIES[version][0], identity, scheme + resources, *references))
     print(f"linux64: FMI {version}, {len(names)} outputs, state saved and restored")
+    arguments = (identity, resources, *references)
     if not shutil.which("wine"):
         print("win64: skipped: wine is not installed")
+    else:
+        windows, wine = run_windows(version, fmu / BINARIES[version][1], arguments, directory)
+        compare("win64", wine, names, linux, windows)
+    if not (fmu / ARM).is_file():
         return
-    gcc = "x86_64-w64-mingw32-gcc"
-    host = compiled(gcc, version, directory / "host.exe")
-    output(gcc, "-O1", "-Wall", "-Wextra", "-shared", HERE / "bcryptprimitives.c", "-o", directory / "bcryptprimitives.dll", "-ladvapi32")
-    environment = os.environ | {"WINEPREFIX": str(directory / "wine"), "WINEDEBUG": "-all"}
-    drive = "file:///Z:" if version == "2.0" else "Z:"
-    command = ("wine", host, fmu / BINARIES[version][1], identity, drive + resources, *references)
-    windows = rows(output(*command, env=environment))
-    difference, name = largest_difference(names, linux, windows)
-    print(f"win64: the same under {output('wine', '--version').strip()}; largest difference {difference:.2e} ({name})")
-    require(difference <= TOLERANCE, f"{name} differs by {difference:.2e} between linux64 and win64")
+    if missing := [program for program in ("qemu-aarch64", f"{ARM_GCC}-gcc") if not shutil.which(program)]:
+        print(f"aarch64-linux: skipped: {' and '.join(missing)} not installed")
+        return
+    arm, qemu = run_arm(version, fmu / ARM, arguments, directory)
+    compare("aarch64-linux", qemu, names, linux, arm)
 
 
 def main():
@@ -195,7 +234,7 @@ def main():
     parser.add_argument("fmu", type=Path)
     parser.add_argument("--run", action="store_true", help="also run both binaries and compare")
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as temporary:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
         directory = Path(temporary)
         fmu = directory / "fmu"
         with zipfile.ZipFile(arguments.fmu) as archive:
@@ -207,7 +246,10 @@ def main():
             archive.extractall(fmu)
         check_linux(fmu / linux)
         check_windows(fmu / windows)
-        for binary in (linux, windows):
+        arm = [ARM] if (fmu / ARM).is_file() else []
+        for binary in arm:
+            check_linux(fmu / binary)
+        for binary in (linux, windows, *arm):
             check_paths(fmu / binary)
         if arguments.run:
             run(fmu, directory)

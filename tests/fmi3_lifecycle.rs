@@ -28,7 +28,6 @@ fn instantiation_with_wrong_arguments_gives_null_and_a_logged_reason() {
     refused(Arguments { event_mode: 2, ..Default::default() }, "eventModeUsed = 2 is no fmi3Boolean");
     refused(Arguments { visible: 255, ..Default::default() }, "visible = 255 ");
     refused(Arguments { logging: 3, ..Default::default() }, "loggingOn = 3 ");
-    refused(Arguments { intermediate: vec![201], ..Default::default() }, "requiredIntermediateVariables");
     assert!(!fmi3GetVersion().is_null());
     let none = [
         unsafe_free(|| {
@@ -320,14 +319,7 @@ fn random_legal_and_illegal_calls_end_with_a_status_and_finite_outputs() {
 
 /// A wheel that a brake locks at low adhesion, with what its master allows.
 fn braked(early_return: u8) -> Wheel {
-    let wheel = Wheel::try_new(&Arguments { early_return, ..Default::default() }).ok().unwrap();
-    for (name, value) in [("mesh.elements_per_half_width", 4), ("mesh.grid_elements_per_half_width", 4)] {
-        assert_eq!(wheel.set_int32(name, value), Status::Ok);
-    }
-    assert_eq!(
-        (wheel.set_int32("solver.modes_wheel", 6), wheel.set_int32("solver.modes_rail", 4)),
-        (Status::Ok, Status::Ok)
-    );
+    let wheel = Wheel::coarse_with(&Arguments { early_return, ..Default::default() });
     assert_eq!(wheel.set("initial.velocity", 5.0), Status::Ok);
     assert_eq!(wheel.set("friction.coefficient", 0.1), Status::Ok);
     wheel.initialize();
@@ -369,4 +361,34 @@ fn a_step_returns_early_where_the_wheel_locks_and_is_released_and_the_run_has_th
         println!("{a:.9} and {b:.9} at the end");
         assert!((a - b).abs() < 1e-4 * b.abs().max(1.0));
     }
+}
+
+#[test]
+fn an_early_return_is_within_one_internal_step_of_the_lock() {
+    let fine = braked(0);
+    let short = 2e-5;
+    assert_eq!(fine.set("brake.torque", 3e4), Status::Ok);
+    let mut steps = 0;
+    while fine.boolean("brake.locked") == 0 {
+        assert_eq!(fine.step(short * f64::from(steps), short), Status::Ok);
+        steps += 1;
+        assert!(steps < 1000, "the wheel does not lock");
+    }
+    let wheel = braked(1);
+    assert_eq!(wheel.set("brake.torque", 3e4), Status::Ok);
+    let (mut start, mut told) = (0.0, wheel.told(0.0, 5e-3).1);
+    while told.early == 0 {
+        start = told.time;
+        told = wheel.told(start, 5e-3).1;
+    }
+    let (expected, inner) =
+        (short * f64::from(steps), (told.time - start) / f64::from(wheel.int32("solver.internal_steps")));
+    println!(
+        "locks at {:.3} ms, in steps of {short} s at {:.3} ms; internal steps of {:.3} ms",
+        1e3 * told.time,
+        1e3 * expected,
+        1e3 * inner
+    );
+    assert_eq!(wheel.boolean("brake.locked"), 1);
+    assert!((told.time - expected).abs() < inner + short);
 }

@@ -101,7 +101,8 @@ fn measure(depths: &mut Depths, dll: &libfmi::Fmi2Dll, what: &str, settings: &dy
 
 /// Everything that a master of FMI 3.0 may do with one wheel.
 fn measure3(depths: &mut Depths, preset: &str) {
-    let arguments = slave3::Arguments { logging: 1, ..Default::default() };
+    let intermediate = vec![slave3::reference("drive.moment")];
+    let arguments = slave3::Arguments { logging: 1, answers: true, intermediate, ..Default::default() };
     let made = depths.of("fmi3InstantiateCoSimulation", preset, || slave3::Wheel::try_new(&arguments));
     let wheel = made.unwrap_or_else(|heard| panic!("{heard:?}"));
     depths.of("fmi3SetString", preset, || assert_eq!(wheel.set_string("preset", preset), Status::Ok));
@@ -113,6 +114,12 @@ fn measure3(depths: &mut Depths, preset: &str) {
         depths.of("fmi3DoStep", preset, || assert_eq!(wheel.step(1e-3 * f64::from(k), 1e-3), Status::Ok));
         depths.of("fmi3GetFloat64", preset, || wheel.array("profile.temperature_wheel_below"));
     }
+    // Four lines within the step.
+    let bent = |wheel: &slave3::Wheel, time: f64| {
+        wheel.set("drive.moment", if (4.4e-3..4.6e-3).contains(&time) { -1000.0 } else { -600.0 });
+    };
+    let (status, _) = depths.of("fmi3DoStep", preset, || wheel.answering(4e-3, 1e-3, Box::new(bent)));
+    assert_eq!(status, Status::Ok, "{:?}", wheel.heard());
     depths.of("fmi3GetFMUState", preset, || wheel.save(&mut state));
     let bytes = depths.of("fmi3SerializeFMUState", preset, || wheel.serialize(state));
     depths.of("fmi3DeserializeFMUState", preset, || assert_eq!(wheel.deserialize(&bytes, &mut other), Status::Ok));

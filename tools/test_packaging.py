@@ -176,5 +176,30 @@ class Folders(unittest.TestCase):
         self.assertIn("pow", CHECK.called_functions(headers, code + "   180001010:\tjmp *0x87(%rip)        # 1808806d0\n"))
 
 
+class Exports(unittest.TestCase):
+    def test_the_linker_for_windows_exports_the_functions_of_both_versions_and_nothing_else(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            place = Path(temporary)
+            listed = place / "lib.def"
+            listed.write_text('LIBRARY\nEXPORTS\n    fmi2DoStep\n    "fmi3DoStep"\n    fmi3GetFloat64\n    rust_eh_personality\n    ZSTD_free\n')
+            linker = place / "x86_64-w64-mingw32-gcc"
+            linker.write_text('#!/bin/sh\nprintf "%s\\n" "$@" > "$0.called"\n')
+            linker.chmod(0o755)
+            environment = os.environ | {"PATH": f"{place}{os.pathsep}{os.environ['PATH']}"}
+            arguments = ["-shared", f"-Wl,{listed}"]
+            subprocess.run([ROOT / "packaging" / "mingw-linker", *arguments], check=True, env=environment)
+            self.assertEqual(listed.read_text().split(), ["LIBRARY", "EXPORTS", "fmi2DoStep", '"fmi3DoStep"', "fmi3GetFloat64"])
+            self.assertEqual(Path(f"{linker}.called").read_text().split(), arguments)
+
+    def test_dynamic_symbols_are_told_apart_by_their_section(self):
+        text = (
+            "\nSymbol table '.dynsym' contains 4 entries:\n   Num:    Value          Size Type    Bind   Vis      Ndx Name\n"
+            "     0: 0000000000000000     0 NOTYPE  LOCAL  DEFAULT  UND \n"
+            "     1: 0000000000000000     0 FUNC    GLOBAL DEFAULT  UND log@GLIBC_2.29 (3)\n"
+            "     2: 0000000000035b10    91 FUNC    GLOBAL DEFAULT   14 fmi3DoStep\n"
+        )
+        self.assertEqual(CHECK.dynamic_symbols(text), (["fmi3DoStep"], ["log"]))
+
+
 if __name__ == "__main__":
     unittest.main()

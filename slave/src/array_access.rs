@@ -1,8 +1,9 @@
 //! Access through variables that may be arrays, as FMI 3.0 has it.
 
 use crate::instance::{Instance, Slave};
+use crate::intermediate::Course;
 use crate::life::Life;
-use crate::lifecycle::Call;
+use crate::lifecycle::{Call, Phase};
 use crate::log::{CallError, Outcome};
 use crate::value::{ElementType, Reference, Scalar};
 
@@ -36,6 +37,31 @@ pub trait ArrayAccess: Slave {
     fn output_rates(&mut self, _references: &[Reference], _orders: &[i32], _life: &Life) -> Outcome<Vec<f64>> {
         Err(CallError::error("derivatives of outputs are not provided"))
     }
+
+    /// True if a master can give values of some inputs within a step.
+    const INTERMEDIATE_UPDATE: bool = false;
+
+    /// True for a real input of which a master can give values within a step.
+    fn is_intermediate(_reference: Reference) -> bool {
+        false
+    }
+
+    /// Present values of inputs that can be given within a step, each with the distance from a straight line that matters, in the
+    /// unit of the variable.
+    fn present(&mut self, _references: &[Reference], _life: &Life) -> Outcome<Vec<(f64, f64)>> {
+        Ok(Vec::new())
+    }
+
+    /// Refuses a value of an input that can be given within a step.
+    fn check_present(&self, _reference: Reference, _value: f64) -> Outcome {
+        Ok(())
+    }
+
+    /// Simulates from `start` along a course of inputs, or to an event where steps may end early; returns the time it took \[s], that
+    /// of the last point exactly without an event. Errors are those of [`Slave::step`].
+    fn step_along(&mut self, _start: f64, _course: &Course, _life: &Life) -> Outcome<f64> {
+        Err(CallError::error("inputs are held within a step"))
+    }
 }
 
 /// Refuses another number of values than variables have.
@@ -64,8 +90,12 @@ impl<S: ArrayAccess> Instance<S> {
         Ok(values)
     }
 
-    /// Sets variables of one type, all or none.
+    /// Sets variables of one type, all or none; while the master is asked for values within a step, those at the time of the
+    /// question.
     pub fn write(&mut self, references: &[Reference], wanted: ElementType, values: Vec<Scalar>) -> Outcome {
+        if self.life().phase() == Phase::Intermediate {
+            return self.write_intermediate(references, wanted, values);
+        }
         self.life().allow(Call::Set)?;
         if references.contains(&TIME) {
             return Err(CallError::error("time is the independent variable and cannot be set"));

@@ -1,6 +1,7 @@
 //! The trait of a model, and the instance that a master drives around it.
 
 use crate::aside::Aside;
+use crate::intermediate::Inquiry;
 use crate::life::Life;
 use crate::lifecycle::{Call, Phase};
 use crate::log::{CallError, Log, Outcome, Status};
@@ -113,12 +114,16 @@ pub trait ScalarAccess: Slave {
 pub struct Instance<S: Slave> {
     life: Life,
     slave: S,
+    /// Variables that the master may set within steps, in their order.
+    pub(crate) intermediate: Vec<Reference>,
+    /// Questions about the step that comes next, while they are asked.
+    pub(crate) inquiry: Option<Inquiry>,
 }
 
 impl<S: Slave> Instance<S> {
     /// A new instance. `resources` is the directory `resources` of the unpacked FMU, if known.
     pub fn new(resources: Option<PathBuf>, log: Log) -> Outcome<Self> {
-        Ok(Self { life: Life::new(log), slave: S::new(resources)? })
+        Ok(Self { life: Life::new(log), slave: S::new(resources)?, intermediate: Vec::new(), inquiry: None })
     }
 
     /// Runs long computations by `aside` from now on.
@@ -169,6 +174,11 @@ impl<S: Slave> Instance<S> {
     /// True if repeating the last, discarded step is pointless.
     pub fn terminated(&self) -> bool {
         self.slave.is_hopeless()
+    }
+
+    /// Begins another phase of life.
+    pub(crate) fn enter(&mut self, phase: Phase) {
+        self.life.phase = phase;
     }
 
     /// Marks the instance as beyond repair, after a panic.
@@ -233,12 +243,22 @@ impl<S: Slave> Instance<S> {
     /// Simulates from the communication point `start` over `h` \[s] with the inputs set now, or to an event where steps may end
     /// early. The time reached is that of [`Instance::last_successful_time`].
     pub fn do_step(&mut self, start: f64, h: f64) -> Outcome {
+        self.step_by(start, h, |slave, life| match life.early_return {
+            true => slave.step_to_event(start, h, life),
+            false => slave.step(start, h, life).map(|()| h),
+        })
+    }
+
+    /// Simulates one step as `compute` does, which returns the time it took \[s].
+    pub(crate) fn step_by(
+        &mut self,
+        start: f64,
+        h: f64,
+        compute: impl FnOnce(&mut S, &Life) -> Outcome<f64>,
+    ) -> Outcome {
         self.life.allow(Call::DoStep)?;
         self.life.check_step(start, h, S::LONGEST_STEP)?;
-        let done = match self.life.early_return {
-            true => self.slave.step_to_event(start, h, &self.life),
-            false => self.slave.step(start, h, &self.life).map(|()| h),
-        };
+        let done = compute(&mut self.slave, &self.life);
         match &done {
             Ok(reached) => {
                 self.life.time = start + reached;

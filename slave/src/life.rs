@@ -58,6 +58,11 @@ impl Life {
         self.aside
     }
 
+    /// True if a master allows steps to end early.
+    pub fn may_return_early(&self) -> bool {
+        self.early_return
+    }
+
     /// Present phase.
     pub fn phase(&self) -> Phase {
         self.phase

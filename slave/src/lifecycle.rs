@@ -19,6 +19,8 @@ pub enum Phase {
     Terminated = 16,
     /// After a panic: nothing can be trusted, only `fmi2FreeInstance` is left.
     Fatal = 32,
+    /// Within a step, while the master is asked for values: Intermediate Update Mode.
+    Intermediate = 64,
 }
 
 /// Groups of functions with the same rule.
@@ -42,6 +44,8 @@ pub enum Call {
     GetOrStart,
     /// `fmi2SetReal`, `…Integer`, `…Boolean`, `…String`; parameters only before the first step.
     Set,
+    /// `fmi3SetFloat64` within a step.
+    SetIntermediate,
     /// `fmi2GetFMUstate` and its family, including serialization.
     FmuState,
     /// `fmi2GetDirectionalDerivative`.
@@ -63,6 +67,7 @@ const INITIALIZATION: u8 = Phase::Initialization as u8;
 const COMPLETE: u8 = Phase::StepComplete as u8;
 const FAILED: u8 = Phase::StepFailed as u8;
 const TERMINATED: u8 = Phase::Terminated as u8;
+const INTERMEDIATE: u8 = Phase::Intermediate as u8;
 const ALIVE: u8 = INSTANTIATED | INITIALIZATION | COMPLETE | FAILED | TERMINATED;
 
 impl Call {
@@ -80,6 +85,7 @@ impl Call {
             Call::GetOrStart => ALIVE,
             Call::Set | Call::SetRealInputDerivatives => INSTANTIATED | INITIALIZATION | COMPLETE | FAILED,
             Call::GetRealOutputDerivatives | Call::GetStatus => COMPLETE | FAILED | TERMINATED,
+            Call::SetIntermediate => INTERMEDIATE,
             // Steps are never asynchronous: there is none to cancel.
             Call::CancelStep => 0,
         }

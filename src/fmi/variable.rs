@@ -94,6 +94,13 @@ impl Variable {
         output.points.iter().enumerate().map(element).collect()
     }
 
+    /// True for an input that changes within a step as its master says: by a time derivative, or by values within the step.
+    pub fn is_ramped(&self) -> bool {
+        let reference = self.reference;
+        matches!(self.access, Access::RealInput(_))
+            && Drive::ROWS.iter().any(|row| row.number == reference && row.ramp.is_some())
+    }
+
     /// Value of a parameter; `None` for other variables.
     pub fn parameter(&self, preset: &str, config: &Config) -> Option<Value> {
         match self.access {

@@ -1,7 +1,7 @@
 //! A small master of FMI 3.0: the exported C functions, with names instead of value references.
 #![allow(dead_code, unsafe_code)]
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, CString, c_void};
 use std::path::Path;
 use std::ptr;
@@ -14,14 +14,44 @@ use wheelrail_slave::c_abi::v3::types::*;
 /// A message: status, category, text.
 pub type Heard = (Status, String, String);
 
-/// Environment of a master: the messages it has got.
-type Ear = RefCell<Vec<Heard>>;
+/// Answer of a master that is asked for its inputs at a time within a step, with the instance.
+pub type Answer = Box<dyn FnMut(&Wheel, f64)>;
+
+/// Environment of a master: the messages it has got, and its answer to questions within steps.
+#[derive(Default)]
+struct Ear {
+    messages: RefCell<Vec<Heard>>,
+    answer: RefCell<Option<Answer>>,
+    wheel: Cell<*const Wheel>,
+}
 
 unsafe extern "C" fn hear(environment: *mut c_void, status: Status, category: fmi3String, text: fmi3String) {
     // SAFETY: the environment is the ear of the wheel; the library passes strings that end with NUL.
     unsafe {
         let [category, text] = [category, text].map(|text| CStr::from_ptr(text).to_str().unwrap().to_owned());
-        (*environment.cast::<Ear>()).borrow_mut().push((status, category, text));
+        (*environment.cast::<Ear>()).messages.borrow_mut().push((status, category, text));
+    }
+}
+
+unsafe extern "C" fn asked(
+    environment: *mut c_void,
+    time: f64,
+    set: u8,
+    get: u8,
+    finished: u8,
+    may_return: u8,
+    early: *mut u8,
+    at: *mut f64,
+) {
+    // SAFETY: the environment is the ear of the wheel, which lives while one of its functions is called; places for both answers.
+    unsafe {
+        assert!([set, get, finished, may_return] == [1, 0, 0, 0] && *early == 0 && *at == time);
+        let ear = &*environment.cast::<Ear>();
+        let Some(mut answer) = ear.answer.take() else { return };
+        if let Some(wheel) = ear.wheel.get().as_ref() {
+            answer(wheel, time);
+        }
+        ear.answer.replace(Some(answer));
     }
 }
 
@@ -35,6 +65,8 @@ pub struct Arguments {
     pub event_mode: u8,
     pub early_return: u8,
     pub intermediate: Vec<u32>,
+    /// True if the master has a function that is asked for inputs within a step.
+    pub answers: bool,
 }
 
 impl Default for Arguments {
@@ -49,6 +81,7 @@ impl Default for Arguments {
             event_mode: 0,
             early_return: 0,
             intermediate: Vec::new(),
+            answers: false,
         }
     }
 }
@@ -105,15 +138,20 @@ impl Wheel {
                 arguments.intermediate.len(),
                 ptr::from_ref(&*ear).cast_mut().cast(),
                 Some(hear),
-                None,
+                arguments.answers.then_some(asked),
             )
         };
-        if instance.is_null() { Err(ear.take()) } else { Ok(Wheel { instance, ear }) }
+        if instance.is_null() { Err(ear.messages.take()) } else { Ok(Wheel { instance, ear }) }
     }
 
     /// Instantiated, with a mesh and a basis that are quick to prepare.
     pub fn coarse() -> Wheel {
-        let wheel = Wheel::try_new(&Arguments::default()).unwrap_or_else(|heard| panic!("{heard:?}"));
+        Wheel::coarse_with(&Arguments::default())
+    }
+
+    /// Instantiated with such a mesh and basis, and with arguments.
+    pub fn coarse_with(arguments: &Arguments) -> Wheel {
+        let wheel = Wheel::try_new(arguments).unwrap_or_else(|heard| panic!("{heard:?}"));
         for (name, value) in [
             ("mesh.elements_per_half_width", 4),
             ("mesh.grid_elements_per_half_width", 4),
@@ -132,15 +170,25 @@ impl Wheel {
         wheel
     }
 
+    /// A step with answers to the questions within it.
+    pub fn answering(&self, t: f64, h: f64, answer: Answer) -> (Status, Told) {
+        self.ear.answer.replace(Some(answer));
+        self.ear.wheel.set(self);
+        let told = self.told(t, h);
+        self.ear.wheel.set(ptr::null());
+        self.ear.answer.take();
+        told
+    }
+
     #[track_caller]
     pub fn initialize(&self) {
         assert_eq!(self.enter(0.0, None), Status::Ok);
-        assert_eq!(self.exit(), Status::Ok, "{:?}", self.ear.borrow());
+        assert_eq!(self.exit(), Status::Ok, "{:?}", self.ear.messages.borrow());
     }
 
     /// Messages since the last call of this method.
     pub fn heard(&self) -> Vec<Heard> {
-        self.ear.take()
+        self.ear.messages.take()
     }
 
     /// The call was refused with an error whose message contains all the words.
@@ -197,6 +245,11 @@ impl Wheel {
     }
     pub fn set_int32(&self, name: &str, value: i32) -> Status {
         unsafe { fmi3SetInt32(self.instance, &reference(name), 1, &value, 1) }
+    }
+    pub fn int32(&self, name: &str) -> i32 {
+        let mut value = -1;
+        assert_eq!(unsafe { fmi3GetInt32(self.instance, &reference(name), 1, &mut value, 1) }, Status::Ok);
+        value
     }
     pub fn set_item(&self, name: &str, value: i64) -> Status {
         unsafe { fmi3SetInt64(self.instance, &reference(name), 1, &value, 1) }

@@ -1,6 +1,6 @@
 //! Making and freeing of components, in both versions of the standard.
 
-use super::component::{Address, Component, panic_text};
+use super::component::{Address, Ask, Component, panic_text};
 use super::environment::Host;
 use super::thread::beside;
 use crate::aside;
@@ -49,16 +49,18 @@ impl Newcomer {
     }
 }
 
-/// Address of a component with the instance that `make` makes; NULL if it makes none, after a message to `log`.
+/// Address of a component with the instance that `make` makes and its question to the master; NULL if it makes none, after a
+/// message to `log`.
 pub fn instantiate<S: Slave>(
     function: &str,
     host: Rc<Host>,
     make: impl FnOnce() -> Outcome<Instance<S>>,
+    ask: Option<Ask>,
     log: impl FnOnce() -> Log,
 ) -> Address {
     host.clone().put_aside(|| {
         let error = match catch_unwind(AssertUnwindSafe(make)) {
-            Ok(Ok(instance)) => return Component::new(instance, host).hand_out(),
+            Ok(Ok(instance)) => return Component::new(instance, host, ask).hand_out(),
             Ok(Err(error)) => error,
             Err(panic) => {
                 CallError { status: Status::Fatal, message: format!("internal error: {}", panic_text(panic)) }

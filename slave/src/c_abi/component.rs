@@ -21,7 +21,12 @@ pub struct Component<S: Slave> {
     pub host: Rc<Host>,
     /// Saved states.
     pub states: States<S::State>,
+    /// Question to the master about its inputs at a time within a step \[s].
+    pub ask: Option<Ask>,
 }
+
+/// Function of a master that is called, outside of any call of an instance, with a time \[s].
+pub type Ask = Rc<dyn Fn(f64)>;
 
 /// Addresses and types of the components that live: a pointer that is none of them is never followed.
 static LIVING: Mutex<Vec<(usize, TypeId)>> = Mutex::new(Vec::new());
@@ -32,8 +37,8 @@ fn living() -> MutexGuard<'static, Vec<(usize, TypeId)>> {
 
 impl<S: Slave> Component<S> {
     /// A component with a new instance.
-    pub fn new(instance: Instance<S>, host: Rc<Host>) -> Self {
-        Self { instance, host, strings: Vec::new(), states: States::default() }
+    pub fn new(instance: Instance<S>, host: Rc<Host>, ask: Option<Ask>) -> Self {
+        Self { instance, host, strings: Vec::new(), states: States::default(), ask }
     }
 
     /// Address by which the master knows the component from now on.

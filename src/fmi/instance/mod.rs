@@ -3,6 +3,7 @@
 //! Functions here speak of rows of the table; which variables of a version of FMI these are is a matter of
 //! [`v2`](super::v2) and [`v3`](super::v3). Every function that fails leaves the wheel as it was.
 
+mod course;
 pub mod derivatives;
 mod experiment;
 mod notices;

@@ -5,6 +5,7 @@ use crate::fmi::instance::WheelSlave;
 use crate::fmi::table::{find, no_such_variable};
 use crate::fmi::variable::{Causality, Kind, Variable};
 use wheelrail_slave::array_access::check_length;
+use wheelrail_slave::intermediate::Course;
 use wheelrail_slave::lifecycle::Phase;
 use wheelrail_slave::{ArrayAccess, CallError, ElementType, Life, Outcome, Reference, Scalar};
 
@@ -81,5 +82,24 @@ impl ArrayAccess for WheelSlave {
         let outputs: Vec<_> =
             rows.iter().zip(orders).flat_map(|(row, order)| row.elements().into_iter().map(|e| (e, *order))).collect();
         self.output_derivatives(&outputs.iter().map(|(element, order)| (element, *order)).collect::<Vec<_>>(), life)
+    }
+
+    const INTERMEDIATE_UPDATE: bool = true;
+
+    fn is_intermediate(reference: Reference) -> bool {
+        find(reference).is_some_and(Variable::is_ramped)
+    }
+
+    fn present(&mut self, references: &[Reference], life: &Life) -> Outcome<Vec<(f64, f64)>> {
+        Ok(self.present_inputs(&rows(references, ElementType::Float64)?, life))
+    }
+
+    fn check_present(&self, reference: Reference, value: f64) -> Outcome {
+        let rows = rows(&[reference], ElementType::Float64)?;
+        rows.into_iter().try_for_each(|row| self.check_within_step(row, value))
+    }
+
+    fn step_along(&mut self, start: f64, course: &Course, life: &Life) -> Outcome<f64> {
+        self.take_course(start, &rows(&course.references, ElementType::Float64)?, &course.points, life)
     }
 }

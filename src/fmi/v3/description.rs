@@ -57,7 +57,7 @@ fn capabilities(xml: &mut XmlText) -> io::Result<()> {
         ("providesPerElementDependencies", "false"),
         ("canHandleVariableCommunicationStepSize", "true"),
         ("maxOutputDerivativeOrder", output_order.as_str()),
-        ("providesIntermediateUpdate", "false"),
+        ("providesIntermediateUpdate", "true"),
         ("mightReturnEarlyFromDoStep", "true"),
         ("hasEventMode", "false"),
     ];
@@ -107,6 +107,7 @@ fn variable(xml: &mut XmlText, row: &Variable) -> io::Result<()> {
     let (starts, typed): (Vec<_>, Vec<_>) =
         typed.into_iter().partition(|(name, _)| kind == "String" && *name == "start");
     attributes.extend(typed);
+    attributes.extend(row.is_ramped().then(|| ("intermediateUpdate", "true".to_owned())));
     let element = xml.create_element(kind).with_attributes(borrowed(&attributes));
     if row.dimension.is_none() && starts.is_empty() {
         return element.write_empty().map(drop);

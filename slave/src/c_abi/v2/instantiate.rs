@@ -79,7 +79,7 @@ pub unsafe fn fmi2Instantiate<S: ScalarAccess>(
         let name = unsafe { text(instanceName, "instanceName") }.unwrap_or_else(|_| "unnamed".to_owned());
         Log::new(sink(&name, functions, host.clone()), false)
     };
-    instantiate("fmi2Instantiate", host.clone(), make, log)
+    instantiate("fmi2Instantiate", host.clone(), make, None, log)
 }
 
 /// Frees an instance with all its states; a pointer that is no instance, or no longer, is left alone.

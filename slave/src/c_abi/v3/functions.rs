@@ -2,7 +2,7 @@
 
 use super::types::*;
 use crate::c_abi::call;
-use crate::c_abi::marshal::{slice, store, text};
+use crate::c_abi::marshal::{slice, text};
 use crate::instance::Slave;
 use crate::lifecycle::Call;
 use crate::log::{CallError, Outcome};
@@ -133,42 +133,6 @@ pub unsafe fn fmi3DeserializeFMUState<S: Slave>(
     unsafe {
         call::<S>(instance, "fmi3DeserializeFMUState", |component| {
             component.deserialize_state(serializedState, size, FMUState)
-        })
-    }
-}
-
-/// Simulates one step. Saved states stay until the master frees them, whatever it promises about using them. The end of the
-/// simulation is asked for where a step was discarded and repeating it is pointless.
-#[allow(clippy::too_many_arguments)]
-pub unsafe fn fmi3DoStep<S: Slave>(
-    instance: fmi3Instance,
-    currentCommunicationPoint: fmi3Float64,
-    communicationStepSize: fmi3Float64,
-    noSetFMUStatePriorToCurrentPoint: fmi3Boolean,
-    eventHandlingNeeded: *mut fmi3Boolean,
-    terminateSimulation: *mut fmi3Boolean,
-    earlyReturn: *mut fmi3Boolean,
-    lastSuccessfulTime: *mut fmi3Float64,
-) -> fmi3Status {
-    let flags = [
-        (eventHandlingNeeded, "eventHandlingNeeded"),
-        (terminateSimulation, "terminateSimulation"),
-        (earlyReturn, "earlyReturn"),
-    ];
-    // SAFETY: see the module.
-    unsafe {
-        call::<S>(instance, "fmi3DoStep", |component| {
-            boolean(noSetFMUStatePriorToCurrentPoint, "noSetFMUStatePriorToCurrentPoint")?;
-            flags.into_iter().try_for_each(|(place, name)| store(place, vec![0], name))?;
-            let instance = &mut component.instance;
-            store(lastSuccessfulTime, vec![instance.last_successful_time()], "lastSuccessfulTime")?;
-            let done = instance.do_step(currentCommunicationPoint, communicationStepSize);
-            store(terminateSimulation, vec![instance.terminated().into()], "terminateSimulation")?;
-            let reached = instance.last_successful_time();
-            let early = done.is_ok() && reached < currentCommunicationPoint + communicationStepSize;
-            store(earlyReturn, vec![early.into()], "earlyReturn")?;
-            store(lastSuccessfulTime, vec![reached], "lastSuccessfulTime")?;
-            done
         })
     }
 }

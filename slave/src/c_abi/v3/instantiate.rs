@@ -1,6 +1,7 @@
 //! Birth and death of a component.
 
 use super::logger::log_to;
+use super::step::ask;
 use super::types::*;
 use crate::c_abi::birth::{Newcomer, free, instantiate};
 use crate::c_abi::environment::Host;
@@ -36,16 +37,13 @@ impl CoSimulationRequest {
             let why = "eventModeUsed = fmi3True, but this FMU has no Event Mode (hasEventMode = false): pass fmi3False";
             return Err(CallError::error(why));
         }
-        if let Some(first) = intermediate.first() {
-            let why = "this FMU has no intermediate update (providesIntermediateUpdate = false): require no variables";
-            return Err(CallError::error(format!("requiredIntermediateVariables begins with {first}, but {why}")));
-        }
         // SAFETY: see the module: a string, unless it is NULL.
         let resources = (!self.resources.is_null()).then(|| unsafe { text(self.resources, "resourcePath") });
         let resources = resources.transpose()?.map(Into::into);
         let newcomer = Newcomer { name, identity: ("instantiationToken", token), resources };
         let mut instance = newcomer.instance(S::token, log)?;
         instance.allow_early_return(early_return);
+        instance.require_intermediate(intermediate)?;
         Ok(instance)
     }
 }
@@ -64,7 +62,7 @@ pub unsafe fn fmi3InstantiateCoSimulation<S: ArrayAccess>(
     nRequiredIntermediateVariables: usize,
     instanceEnvironment: fmi3InstanceEnvironment,
     logMessage: fmi3LogMessageCallback,
-    _intermediateUpdate: fmi3IntermediateUpdateCallback,
+    intermediateUpdate: fmi3IntermediateUpdateCallback,
 ) -> fmi3Instance {
     let request = CoSimulationRequest {
         name: instanceName,
@@ -79,7 +77,8 @@ pub unsafe fn fmi3InstantiateCoSimulation<S: ArrayAccess>(
     let log = |on| log_to(logMessage, instanceEnvironment, host.clone(), on);
     // SAFETY: see the module.
     let make = || unsafe { request.instance::<S>(log(boolean(loggingOn, "loggingOn")?)) };
-    instantiate("fmi3InstantiateCoSimulation", host.clone(), make, || log(false))
+    let ask = if S::INTERMEDIATE_UPDATE { ask(intermediateUpdate, instanceEnvironment) } else { None };
+    instantiate("fmi3InstantiateCoSimulation", host.clone(), make, ask, || log(false))
 }
 
 /// Refuses to make an instance of another kind than co-simulation.

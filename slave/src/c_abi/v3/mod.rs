@@ -5,9 +5,11 @@ mod export;
 mod functions;
 mod instantiate;
 mod logger;
+mod step;
 pub mod types;
 mod values;
 
 pub use functions::*;
 pub use instantiate::{fmi3FreeInstance, fmi3InstantiateCoSimulation, no_instance};
+pub use step::fmi3DoStep;
 pub use values::*;
