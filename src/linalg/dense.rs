@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 /// libraries begin, do not pay yet.
 ///
 /// Once the buffers have the size of the largest system, nothing is allocated any more.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct DenseSystem {
     size: usize,
     /// Rows of `A`, one after the other; overwritten by the factors of `A Q`, L with a diagonal of 1.

@@ -18,6 +18,7 @@ struct Unknown {
 }
 
 /// The linear law of one line.
+#[derive(Clone)]
 struct LinearLine {
     points: [PointState; COUNT],
     unknowns: Vec<Unknown>,
@@ -29,6 +30,7 @@ struct LinearLine {
 }
 
 /// The linear law of all lines and motions.
+#[derive(Clone)]
 pub struct Linearised {
     lines: Vec<LinearLine>,
     /// Factors of the equations of the slips that lines and motions give to each other.

@@ -109,7 +109,11 @@ impl ConeSearch {
         newton.linear = without.take();
         let mut violation = newton.largest(contact);
         newton.run(contact, (SHARE * violation).clamp(TOLERANCE, ROUGHEST))?;
-        *without = std::mem::replace(&mut newton.linear, with.take());
+        // A first law with the correction: that without it may lead on.
+        without.clone_from(&newton.linear);
+        if let Some(with) = with.take() {
+            newton.linear = Some(with);
+        }
         self.uncorrected.clone_from(&newton.shears);
         let motion = newton.rigid;
         newton.correct(contact);
