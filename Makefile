@@ -307,37 +307,37 @@ $(BUILT): $(SOURCES)
 ifneq "$(shell cat $(INSTALLED) 2> /dev/null)" "$(CURDIR)"
 .PHONY: $(INSTALLED)
 endif
-$(INSTALLED): requirements.txt python/pyproject.toml
+$(INSTALLED): requirements/main.txt python/pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed, this is " + sys.version)'
 	$(PYTHON) -m venv --clear $(VENV)
-	$(PIP) --require-hashes -r requirements.txt
+	$(PIP) --require-hashes -r requirements/main.txt
 	$(PIP) --no-build-isolation --editable ./python
 	echo '$(CURDIR)' > $@
 
-$(MASTERS): requirements-masters.txt $(INSTALLED)
+$(MASTERS): requirements/masters.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
 
-$(TRAIN): requirements-train.txt $(INSTALLED)
+$(TRAIN): requirements/train.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
 
-$(NOTEBOOK): requirements-notebook.txt $(INSTALLED)
+$(NOTEBOOK): requirements/notebook.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
 
-$(VENV)/.browser: requirements-browser.txt $(INSTALLED)
+$(VENV)/.browser: requirements/browser.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
 
-$(RECORDS): requirements-records.txt $(INSTALLED)
+$(RECORDS): requirements/records.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
 
-$(PLATFORMS): requirements-platforms.txt $(INSTALLED)
+$(PLATFORMS): requirements/platforms.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
 
-$(SITE): requirements-site.txt $(INSTALLED)
+$(SITE): requirements/site.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@

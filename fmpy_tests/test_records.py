@@ -10,7 +10,7 @@ import pytest
 import wheelrail
 from wheelrail import Refused
 
-pytest.importorskip("xarray", reason="xarray is not installed (requirements-records.txt)")
+pytest.importorskip("xarray", reason="xarray is not installed (requirements/records.txt)")
 PAGE = Path(__file__).parent.parent / "docs" / "records.md"
 BRAKED = {"brake.torque": 4000.0}
 

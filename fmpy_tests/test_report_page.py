@@ -353,7 +353,7 @@ def test_a_page_is_one_file_of_less_than_six_megabytes_with_everything_escaped(r
 @pytest.fixture(scope="module")
 def browser():
     """A headless browser of the machine."""
-    driver = pytest.importorskip("playwright.sync_api", reason="playwright is not installed (requirements-browser.txt)")
+    driver = pytest.importorskip("playwright.sync_api", reason="playwright is not installed (requirements/browser.txt)")
     if BROWSER is None:
         pytest.skip("no browser (chromium or google-chrome) is installed")
     with driver.sync_playwright() as playwright:
