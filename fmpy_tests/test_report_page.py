@@ -422,7 +422,7 @@ def test_the_page_of_a_run_works_in_a_browser_without_network(run, tmp_path, bro
     entry.click()
     tab.wait_for_function("() => document.querySelector('#charts .plot').data[1].visible === 'legendonly'", timeout=10_000)
 
-    tab.click("#curves summary")
+    tab.click("#rest summary")
     tab.wait_for_function("() => document.querySelectorAll('#more .js-plotly-plot').length > 5")
     buttons = tab.evaluate("() => [...new Set([...document.querySelectorAll('.modebar-btn')].map((b) => b.dataset.title))]")
     assert sorted(buttons) == ["Download plot as a PNG", "Pan", "Reset axes", "Zoom"]

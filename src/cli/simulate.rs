@@ -32,6 +32,9 @@ pub struct Simulate {
     /// File for the results instead of standard output.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// File for the names, units and meanings of the columns.
+    #[arg(long, value_name = "FILE.csv")]
+    columns: Option<PathBuf>,
     /// Variables to write, by FMI name; `profile.pressure` stands for all its points. If not given: speeds, forces,
     /// creepage, patch, temperatures, friction power, energy residual.
     #[arg(long, value_name = "NAMES", value_delimiter = ',', default_value = OUTPUTS, hide_default_value = true)]
@@ -52,6 +55,9 @@ impl Simulate {
         self.refuse_lost_files()?;
         let saved = self.wheel_profile.iter().map(|file| Setting::new("wheel.profile_save", file));
         let mut run = Run::start(&self.setup, &self.course, &saved.collect::<Result<Vec<_>, _>>()?)?;
+        if let Some(path) = &self.columns {
+            table::write_columns(path, true, &columns)?;
+        }
         let mut csv = Csv::create(self.out.as_deref())?;
         csv.header(["time"].into_iter().chain(columns.iter().map(|v| v.name)))?;
         // A bar and results on the same terminal would overwrite each other.
@@ -90,6 +96,7 @@ impl Simulate {
         let Some(out) = &self.out else { return Ok(()) };
         let others = [
             ("--scenario", self.course.scenario.clone()),
+            ("--columns", self.columns.clone()),
             ("--wheel-profile", self.wheel_profile.as_ref().map(PathBuf::from)),
         ];
         let lost = |path: &Option<PathBuf>| path.as_ref().is_some_and(|path| files::place(path) == files::place(out));
