@@ -34,6 +34,7 @@ CHECKOUT = (
     short("ellipse", "--brief"),
     Recipe("make ellipse ARGS=--help", says="--brief"),
     short("angle-of-attack", "--brief"),
+    short("published", "--brief"),
     short("masters", "--brief"),
     short("suspension", "--brief"),
     short("own-vehicle", "--brief"),
@@ -109,6 +110,10 @@ WHEEL = (
     Recipe("python -m wheelrail flat run.csv"),
     Recipe("python -m wheelrail filter", says="CNOSSOS"),
     Recipe("python -m wheelrail report run.nc", says="run.html"),
+    Recipe("python -m wheelrail damage run.nc", says="hottest point of the tread"),
+    Recipe("python -m wheelrail export run.nc", ("python -m wheelrail export run.nc", "python -m wheelrail export run.nc --out film"), "patch.pvd"),
+    Recipe("python -m wheelrail steady --creepage 0:2e-3:5", ("python -m wheelrail steady", "python -m wheelrail steady --creepage 0:2e-3:5"), "contact.force_x"),
+    Recipe("python -m wheelrail completion bash", says="complete"),
     Recipe("python -m wheelrail report run.csv --out page.html", (".venv/bin/python -m wheelrail report RUN [--out FILE.html]",), "page.html"),
 )
 

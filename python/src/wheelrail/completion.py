@@ -28,6 +28,7 @@ class Parser(argparse.ArgumentParser):
     wanted = ""
 
     def error(self, message: str) -> NoReturn:
+        """Ends the program with a refusal, which argparse words."""
         super().error(message + meant(message, self))
 
 
