@@ -154,13 +154,14 @@ def hardness(martensite: np.ndarray, cooling_rate: float, steel: Mapping[str, fl
 def settle(wheel: Wheel, *, step: float = 5e-3, longest: float = 120.0) -> float:
     """Steps a wheel on, by `step` [s], until no place of its tread is hot; returns the seconds that took.
 
-    Inputs stay as they are: release the brake before. Records of the wheel go on. Raises `TimeoutError` after `longest` [s].
+    Inputs stay as they are: release the brake before. Records of the wheel go on, and take a sample at the end. Raises `TimeoutError` after `longest` [s].
     """
     begin = wheel.time
     while wheel.get("damage.hot_places"):
         if wheel.time - begin > longest:
             raise TimeoutError(f"{wheel.get('damage.hot_places')} places of the tread are still hot after {longest:g} s")
         wheel.step(step)
+    wheel.sample()
     return wheel.time - begin
 
 

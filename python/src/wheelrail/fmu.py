@@ -257,6 +257,11 @@ class Wheel:
             recorder.stepped()
         self._say()
 
+    def sample(self) -> None:
+        """Lets all records take a sample now, whose turn it may not be."""
+        for recorder in self._recorders:
+            recorder.sample()
+
     def advance(self, h: float) -> None:
         """Advances by a part of `h` seconds of a step; records do not count it."""
         self._call(self.slave.doStep, self.time, h)

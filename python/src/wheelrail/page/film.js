@@ -27,10 +27,11 @@ function unpackedGrid(grid) {
   return found;
 }
 
-// Rows between rows and places between places: linear, or those of the nearest for states.
+// Rows between rows and places between places: linear, or those of the nearest for states, of which one that touches comes first.
 function finer(rows, times, nearest) {
   const spread = (n) => Array.from({ length: times * (n - 1) + 1 }, (_, k) => k / times);
-  const mixed = (a, b, share) => (nearest || share === 0 ? (share < 0.5 ? a : b) : a === null || b === null ? null : a + share * (b - a));
+  const linear = (a, b, share) => (share === 0 ? a : a === null || b === null ? null : a + share * (b - a));
+  const mixed = nearest ? (a, b, share) => (share < 0.5 ? a || b : b || a) : linear;
   const along = rows.map((row) =>
     spread(row.length).map((k) => mixed(row[Math.floor(k)], row[Math.min(Math.floor(k) + 1, row.length - 1)], k % 1)),
   );
@@ -144,7 +145,7 @@ function patchFromAbove(lines, grid, key, frame, fit) {
       line: { color: colour("--soft"), width: 1.5, shape: "spline" },
     },
   ];
-  if (lines.adheres)
+  if (lines.adheres && !lines.grid.quantities.state)
     data.push({
       type: "scatter",
       mode: "lines+markers",
@@ -198,8 +199,8 @@ function patchFromAbove(lines, grid, key, frame, fit) {
     data,
     layout: layout({
       hovermode: "closest",
-      xaxis: axis("x [mm], travel to the right →", { domain: [0, bodies.length ? 0.58 : 1], range: [-reach, reach] }),
-      yaxis: axis("z [mm], across the rail", { range: [-across, across] }),
+      xaxis: axis("x [mm], travel to the right →", { domain: [0, bodies.length ? 0.58 : 1], range: [-reach, reach], constrain: "domain" }),
+      yaxis: axis("z [mm], across the rail", { range: [-across, across], scaleanchor: "x", constrain: "domain" }),
       ...heat,
     }),
   };

@@ -162,7 +162,7 @@ def _curves_note(run, patch):
 
 def _damage(found):
     """Findings, figures over the depth, and what others observed."""
-    tables = html.table(found.rows(), "pairs", header=False)
+    tables = html.table(found.rows(), "findings", header=False)
     if found.comparisons():
         tables += html.table([("observed by others", "here", "source"), *found.comparisons()])
     return f'<div class="columns">{tables}</div>' + html.charts("together")
@@ -181,7 +181,8 @@ def damage_charts(found):
         ("Highest temperature over the depth", CELSIUS, found.peak), ("Martensite over the depth", PERCENT, found.martensite),
         ("Hardness over the depth", Shown("HV"), found.hardness),
     )  # fmt: skip
-    return [charts.chart(title, unit.label, [charts.trace(depth, unit(v[:deep]), title, k + 1)], x="depth [mm]") for k, (title, unit, v) in enumerate(rows)]
+    curve = lambda k, unit, values: charts.trace(depth, unit(values[:deep]), "end of the run", k + 1)
+    return [charts.chart(title, unit.label, [curve(k, unit, v)], x="depth [mm]") for k, (title, unit, v) in enumerate(rows)]
 
 
 def _balance(found):
