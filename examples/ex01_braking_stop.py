@@ -240,7 +240,8 @@ def run(options):
         table, wall = stop(wheel, options, moment, film)
         options.out.mkdir(parents=True, exist_ok=True)
         pages = write_page(options.out / "report.html", wheel, parameters, options.dry, table, film)
-        write_columns(options.out / "braking_stop_columns.csv", fmu)
+        columns = options.out / "braking_stop_columns.csv"
+        write_columns(columns, fmu)
 
     figures = results(table)
     figures += [
@@ -260,7 +261,7 @@ def run(options):
     data, picture = options.out / "braking_stop.csv", options.out / "braking_stop.png"
     write_csv(data, table)
     draw(picture, {name: column(table, name) for name in ("time", *COLUMNS)}, film, radius)
-    print(f"\nwritten: {', '.join(map(str, (data, picture, *pages)))}")
+    print(f"\nwritten: {', '.join(map(str, (data, columns, picture, *pages)))}")
 
 
 if __name__ == "__main__":
