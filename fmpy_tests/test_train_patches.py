@@ -70,7 +70,7 @@ def test_a_patch_beside_a_line_gives_its_temperatures_and_changes_no_force(stops
     assert "temperatures of a wheel beside it (railway_ellipse" in stops["beside"][2]
 
 
-def test_wheels_take_presets_choices_and_flags_from_files_and_sweeps(tmp_path):
+def test_wheels_take_presets_choices_and_flags_from_files_and_sweeps(fmu, tmp_path):
     shutil.copytree(TRAIN, tmp_path, dirs_exist_ok=True)
     text = json.loads((TRAIN / "low_adhesion.json").read_text())
     text["wheel"] = {"preset": "railway_wet", "contact.shape": "ellipse", "thermal.enabled": False, "solver.tolerance": 0.02}
@@ -78,9 +78,15 @@ def test_wheels_take_presets_choices_and_flags_from_files_and_sweeps(tmp_path):
     (tmp_path / "scenario.json").write_text(json.dumps(text))
     loaded = scenario.load(tmp_path / "scenario.json")
     assert loaded.wheel == text["wheel"]
-    scenario.check_wheel(loaded, [*text["wheel"], "preset"])
-    with pytest.raises(BadFile, match="wheel: contact.shap is no parameter of the FMU; did you mean contact.shape"):
-        scenario.check_wheel(scenario.changed(loaded, {"temperatures.contact.shap": "ellipse"}), list(text["wheel"]))
+    scenario.check_wheel(loaded, fmu.variables)
+    for path, value, words in (
+        ("temperatures.contact.shap", "ellipse", "wheel: contact.shap is no parameter of the FMU; did you mean contact.shape"),
+        ("wheel.solver.tolerance", "fine", "wheel: solver.tolerance = 'fine' is not a number"),
+        ("wheel.contact.shape", "circle", "wheel: contact.shape = 'circle' is none of line, ellipse, rows"),
+        ("wheel.preset", 3.0, "wheel: preset = 3.0 is not a text"),
+    ):
+        with pytest.raises(BadFile, match=words):
+            scenario.check_wheel(scenario.changed(loaded, {path: value}), fmu.variables)
     text["wheel"] = {"preset": ["a"]}
     (tmp_path / "scenario.json").write_text(json.dumps(text))
     with pytest.raises(BadFile, match="wheel.preset is"):

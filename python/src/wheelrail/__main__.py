@@ -182,7 +182,7 @@ def opened(path, scenario):
         )
     try:
         with Fmu(path) as known:
-            parameters = [v.name for v in known.description.modelVariables if v.causality == "parameter"]
+            parameters = {v.name: v for v in known.description.modelVariables if v.causality == "parameter"}
     except Exception as error:  # whatever zip, XML and fmpy say of a file that is no FMU
         raise BadFile(f"{path} is no FMU: {' '.join(str(error).split()) or type(error).__name__}") from None
     if "mesh.elements_per_half_width" not in parameters:

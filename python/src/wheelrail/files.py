@@ -108,7 +108,10 @@ class Setting:
 
     def check(self, value):
         """What is wrong with the value."""
-        return None if isinstance(value, (str, bool)) else Real(self.low, self.high, "", self.about).check(value)
+        if isinstance(value, (str, bool)):
+            return None
+        number = isinstance(value, (int, float)) and math.isfinite(value)
+        return Real(self.low, self.high, "", self.about).check(value) if number else f"is {value!r}, no number, text or flag"
 
 
 @dataclass(frozen=True)

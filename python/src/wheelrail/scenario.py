@@ -16,6 +16,7 @@ from .rail_map import RailLaw, RailMap
 from .reach import check_gap, check_reach
 from .schemas import BRAKE, PROFILE, SCENARIO, SECTIONS, TRACK, VEHICLE
 from .smooth import Spline
+from .values import Refused, to_fmu
 from .warn import warn
 
 MOST_CELLS = 5e6  # of the map of the rail, which keeps values of every axle for each of them
@@ -241,13 +242,19 @@ def check(scenario):
 
 
 def check_wheel(scenario, known):
-    """The parameters of the wheels, those that are swept too, are among those that are `known`."""
-    swept = [key.removeprefix("wheel.") for key in vars(scenario.sweep) if key.startswith("wheel.")]
-    for name in [*scenario.wheel, *scenario.temperatures, *scenario.sweep.wheel, *swept]:
+    """The parameters of the wheels, those that are swept too, are among those that are `known`, variables by name, and have values of
+    their types."""
+    swept = [(key.removeprefix("wheel."), value) for key, values in vars(scenario.sweep).items() if key.startswith("wheel.") for value in values]
+    given = [*scenario.wheel.items(), *scenario.temperatures.items(), *scenario.sweep.wheel.items(), *swept]
+    for name, value in given:
         if name not in known:
             close = difflib.get_close_matches(name, known, n=1)
             hint = "".join(f"; did you mean {other}?" for other in close)
             raise BadFile(f"{scenario.paths['scenario']}: wheel: {name} is no parameter of the FMU{hint}")
+        try:
+            to_fmu(known[name], value)
+        except Refused as error:
+            raise BadFile(f"{scenario.paths['scenario']}: wheel: {error}") from None
 
 
 def _beyond(row, before):

@@ -190,6 +190,9 @@ class FrictionLaw(NamedTuple):
         that this law does not know are refused."""
         given = {name: value for name, value in parameters.items() if name.startswith("friction.")}
         unknown = [name for name in given if name not in (*LAW, *WITHOUT_EFFECT)]
+        texts = [name for name in LAW if isinstance(given.get(name), (str, bool))]
+        if texts:
+            raise Refused(f"{texts[0]} = {given[texts[0]]!r} is not a number")
         if unknown:
             raise Refused(f"rigid wheelsets do not know {', '.join(unknown)}, only the law of {' and '.join(LAW)}")
         start = {name: float(fmu.variable(name).start) for name in LAW} if fmu else {}
