@@ -178,7 +178,7 @@ NOT_RUN = {
         "pip install ./python", "pip install './python[records]'", "pip install 'wheelrail[records]'", "pip install 'wheelrail[report]'",
         "pip install exudyn", "pip install wheelrail", "python -m pip install 'wheelrail[sweep]'",
     ),
-    "the fixture does it: it makes the environment of the other recipes": ("python -m venv venv", "pip install wheelrail-….whl"),
+    "the fixture does it: it makes the environment of the other recipes": ("python -m venv venv", "pip install wheelrail-….whl", "pip install 'wheelrail-….whl[records]'"),
     "another test calls just that": (
         *(f"python examples/trials/{who}.py [DIRECTORY]" for who in ("brakes", "damage", "vehicle")), "fmpy validate",
     ),

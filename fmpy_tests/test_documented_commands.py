@@ -70,7 +70,7 @@ def empty(tmp_path_factory, packed):
     make = (
         "import wheelrail, numpy, csv; assert wheelrail.__file__.startswith('venv') or '/venv/' in wheelrail.__file__, wheelrail.__file__\n"
         "run = wheelrail.simulate({'initial.velocity': 20.0}, {'brake.torque': 8000.0}, stop=0.4, progress=False, depth=True, patch=True)\n"
-        "wheelrail.save(run, 'run.nc'); run.to_dataframe().astype(float).to_csv('run.csv')\n"
+        "wheelrail.save(run, 'run.nc'); wheelrail.table(run).astype(float).to_csv('run.csv')\n"
         "rows = [(0.01 * k, 1e-5 * numpy.sin(3.0 * k)) for k in range(500)]\n"
         "csv.writer(open('rail.csv', 'w')).writerows([('position', 'height'), *rows])\n"
     )
