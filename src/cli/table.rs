@@ -80,13 +80,11 @@ impl Csv {
     }
 }
 
-/// Writes the columns of another file: name, SI unit and meaning, the time first if it has one.
-pub fn write_columns(path: &Path, with_time: bool, variables: &[&Variable]) -> Result<(), Failure> {
+/// Writes the columns of a file over time: name, SI unit and meaning, the time first.
+pub fn write_columns(path: &Path, variables: &[&Variable]) -> Result<(), Failure> {
     let mut rows = csv::Writer::from_writer(Sink::File(create(path)?));
     rows.write_record(["column", "unit", "description"])?;
-    if with_time {
-        rows.write_record(["time", "s", "Time"])?;
-    }
+    rows.write_record(["time", "s", "Time"])?;
     for variable in variables {
         let unit = if let Kind::Real { measure, .. } = variable.kind { measure.unit } else { "" };
         rows.write_record([variable.name, unit, variable.description])?;

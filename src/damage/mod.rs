@@ -16,6 +16,7 @@ mod record;
 mod shared;
 mod spot;
 mod tread;
+mod worst;
 
 pub use conduction::ConductionScratch;
 pub use fatigue::surface_fatigue;
@@ -25,6 +26,7 @@ pub use record::{Criteria, Findings, PointHistory, Records};
 use spot::Visit;
 pub use spot::{ColumnSampler, Spot, SpotField};
 pub use tread::Tread;
+pub use worst::Worst;
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
@@ -71,19 +73,6 @@ pub struct Damage {
     pub forgotten: Findings,
     /// Number of places heated in one piece so far; those that touch each other count as one.
     pub places: u64,
-}
-
-/// Extremes at the depths of the mesh, of all places that were heated in one piece so far; empty without any.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Worst {
-    /// Highest temperatures \[K].
-    pub peaks: Vec<f64>,
-    /// Largest shares of martensite \[1].
-    pub martensite: Vec<f64>,
-    /// Largest integral over the depth of the highest excess temperatures of a column [K m].
-    pub heat: f64,
-    /// Position of that column in the material: distance along the tread, as [`Spot::arc`] \[m].
-    pub hottest: f64,
 }
 
 /// Motion and temperatures of the tread in a step, and its position at the end.

@@ -1,10 +1,10 @@
 //! A place of the tread that was heated in one piece.
 
-use super::Worst;
 use super::conduction::{ConductionScratch, beside, conduct};
 use super::mesh::SpotMesh;
 use super::record::{Findings, Recorder, Records};
 use super::shared;
+use super::worst::Worst;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;

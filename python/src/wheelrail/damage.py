@@ -138,7 +138,7 @@ def report(run: xarray.Dataset, *, steel: Mapping[str, float] = STEEL, base: flo
 
 
 def hardness(martensite: np.ndarray, cooling_rate: float, steel: Mapping[str, float] = STEEL, base: float = BASE) -> np.ndarray:
-    """Vickers hardness [HV] of steel with shares of martensite \\[1], an array: that of martensite and of the steel as it was, `base`,
+    """Vickers hardness [HV] of steel with shares of martensite [1], an array: that of martensite and of the steel as it was, `base`,
     by their shares.
 
     Martensite has 127 + 949 C + 27 Si + 11 Mn + 8 Ni + 16 Cr + 21 lg V, in weight percent, V [K/h] the cooling rate (Maynier,

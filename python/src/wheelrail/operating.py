@@ -61,7 +61,7 @@ class OperatingPoint(Wheel):
         super().close()
 
     def roll(self, velocity: float, creepage: float) -> None:
-        """Moves on to a creepage \\[1] at a velocity [m/s], that of the radius to which the wheel then grows."""
+        """Moves on to a creepage [1] at a velocity [m/s], that of the radius to which the wheel then grows."""
         omega = velocity * (2.0 - creepage) / (2.0 + creepage)  # of 2 (V − rΩ)/(V + rΩ), times the radius
         radius, growth = self.get("wheel.radius"), 0.0
         for _ in range(PASSES):
@@ -80,7 +80,7 @@ def steady(
     outputs: str | Iterable[str] | None = None,
     fmu: Fmu | str | Path | None = None,
 ) -> xarray.Dataset:
-    """Stationary rolling at one or many creepages: a Dataset over `creepage` \\[1], as many points as creepages are given.
+    """Stationary rolling at one or many creepages: a Dataset over `creepage` [1], as many points as creepages are given.
 
     `creepage` is 2 (V − rΩ)/(V + rΩ), positive when braking: by itself 16 points up to 1.5 times Carter's full slip μa/R.
     `velocity` [m/s] is `initial.velocity` if it is not given. `outputs` are names of outputs. Temperatures are those that the

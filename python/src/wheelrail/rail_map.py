@@ -43,12 +43,12 @@ class RailLaw:
     effusivity: float  # b, J/(m2 K sqrt(s))
 
     def friction(self, degraded: ArrayLike, recovered: ArrayLike, energy: ArrayLike, sand: ArrayLike) -> np.ndarray:
-        """Equations (1) and (2): degraded and recovered friction [1], energy [J/m], sand [kg/m]."""
+        """Friction [1] by equations (1) and (2): degraded and recovered friction [1], energy [J/m], sand [kg/m], arrays of one shape."""
         cleaned = recovered + (degraded - recovered) * np.exp(-energy / self.cleaning_energy)
         return cleaned + np.maximum(self.sand_friction - cleaned, 0.0) * -np.expm1(-sand / self.sand_mass)
 
     def temperature(self, heat: ArrayLike, age: ArrayLike) -> np.ndarray:
-        """Equation (3) for one passage: heat [J/m], age [s]."""
+        """Excess temperature [K] by equation (3) for each passage: heat [J/m], age [s], arrays of one shape."""
         return heat / (self.width * self.effusivity * np.sqrt(np.pi * np.maximum(age, SHORTEST)))
 
 
@@ -68,7 +68,7 @@ class RailMap:
         self.sand = np.zeros(shape)  # kg per cell, by the axle in front of which it was laid
 
     def centres(self) -> np.ndarray:
-        """Positions of the middle of the cells [m]."""
+        """Positions of the middle of the cells, (cells,) [m]."""
         return self.begin + self.cell * (np.arange(len(self.degraded)) + 0.5)
 
     def friction(self, position: float, axle: int) -> float:

@@ -1,4 +1,7 @@
-"""What a sampled result says: distribution, exceedance, amplitudes against frequency, one-third octaves."""
+"""What a sampled result says: distribution, exceedance, amplitudes against frequency, one-third octaves.
+
+A signal is two arrays of the same shape (n,): positions, ascending, in seconds or metres, and values in a unit of their own.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +26,7 @@ class BadSignal(Exception):
 
 
 def checked(positions: ArrayLike, values: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    """Both as arrays of finite numbers, positions ascending."""
+    """Both as arrays (n,) of finite numbers, positions ascending."""
     positions, values = np.asarray(positions, float), np.asarray(values, float)
     if positions.shape != values.shape or positions.ndim != 1 or len(positions) < 2:
         raise BadSignal(f"{positions.shape} positions and {values.shape} values: two columns of 2 or more rows are needed")
@@ -38,7 +41,7 @@ def checked(positions: ArrayLike, values: ArrayLike) -> tuple[np.ndarray, np.nda
 
 
 def spacing(positions: np.ndarray) -> float:
-    """Distance of samples, which must be equal."""
+    """Distance of samples (n,), which must be equal, in the unit of the positions."""
     step = (positions[-1] - positions[0]) / (len(positions) - 1)
     worst = int(np.argmax(np.abs(np.diff(positions) / step - 1.0)))
     # Positions written with few digits deviate by their rounding.
@@ -51,7 +54,7 @@ def spacing(positions: np.ndarray) -> float:
 
 
 def resampled(positions: ArrayLike, values: ArrayLike, step: float) -> tuple[np.ndarray, np.ndarray]:
-    """The signal at equal distances, straight between samples."""
+    """The signal at equal distances of `step`, straight between samples: positions and values, both (m,)."""
     positions, values = checked(positions, values)
     length = positions[-1] - positions[0]
     if not length / MOST_SAMPLES <= step <= length * (1.0 + 1e-12):
@@ -62,7 +65,7 @@ def resampled(positions: ArrayLike, values: ArrayLike, step: float) -> tuple[np.
 
 
 def durations(time: np.ndarray) -> np.ndarray:
-    """How long each sample stands for: half of the way to its neighbours."""
+    """How long each sample stands for: half of the way to its neighbours, (n,) in the unit of the times."""
     steps = np.diff(time)
     return 0.5 * (np.append(steps, 0.0) + np.insert(steps, 0, 0.0))
 
@@ -93,7 +96,8 @@ def statistics(time: ArrayLike, values: ArrayLike) -> Statistics:
 
 
 def density(time: ArrayLike, values: ArrayLike, classes: int = 60, limits: tuple[float, float] | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """Probability density over time: edges of equal classes and the density [1/unit] in each; its integral is one.
+    """Probability density over time: edges (classes + 1,) of equal classes and the density (classes,) [1/unit] in each; its integral is
+    one.
 
     `limits` of the classes default to the extremes; what lies outside is left out of the classes, not of the whole.
     """
@@ -106,7 +110,7 @@ def density(time: ArrayLike, values: ArrayLike, classes: int = 60, limits: tuple
 
 
 def exceedance(time: ArrayLike, values: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    """Levels, ascending, and the share of time in which the signal is above each."""
+    """Levels (n,), ascending, and the share (n,) of time in which the signal is above each [1]."""
     time, values = checked(time, values)
     order = np.argsort(values, kind="stable")
     share = durations(time)[order] / (time[-1] - time[0])
@@ -114,7 +118,7 @@ def exceedance(time: ArrayLike, values: ArrayLike) -> tuple[np.ndarray, np.ndarr
 
 
 def window(name: str, count: int) -> np.ndarray:
-    """Values of a window."""
+    """Values of a window of `count` samples, (count,)."""
     if name not in WINDOWS:
         raise BadSignal(f"window = {name!r} is none of {', '.join(WINDOWS)}")
     turn = 2.0 * np.pi * np.arange(count) / count
@@ -122,7 +126,7 @@ def window(name: str, count: int) -> np.ndarray:
 
 
 def amplitudes(positions: ArrayLike, values: ArrayLike, taper: str = "flattop") -> tuple[np.ndarray, np.ndarray]:
-    """Amplitude of the sinusoids in a signal against frequency [1/unit of positions], without its mean."""
+    """Frequencies (n // 2 + 1,) [1/unit of positions] and amplitudes of the sinusoids in a signal, in its unit, without its mean."""
     positions, values = checked(positions, values)
     step, shape = spacing(positions), window(taper, len(values))
     lines = np.abs(np.fft.rfft((values - np.mean(values)) * shape)) * 2.0 / shape.sum()
@@ -133,7 +137,7 @@ def amplitudes(positions: ArrayLike, values: ArrayLike, taper: str = "flattop") 
 
 
 def harmonic(positions: ArrayLike, values: ArrayLike, frequency: float) -> tuple[float, float]:
-    """Amplitude and phase [rad] of `A cos(2 pi f x + phase)` of a known frequency, by least squares beside a straight line."""
+    """Amplitude, in the unit of the values, and phase [rad] of `A cos(2 pi f x + phase)` of a known frequency, by least squares beside a straight line."""
     positions, values = checked(positions, values)
     x = positions - positions[0]
     terms = [np.cos(2 * np.pi * frequency * positions), -np.sin(2 * np.pi * frequency * positions), np.ones_like(x), x]
@@ -168,7 +172,8 @@ def octaves(positions: ArrayLike, values: ArrayLike, reference: float = 1.0, tap
 
 
 def of_turns(time: ArrayLike, omega: ArrayLike, velocity: ArrayLike, force: ArrayLike) -> np.ndarray:
-    """Turn by turn of a wheel: mean speed of travel [m/s], largest and smallest force and share of time without it."""
+    """Turn by turn of a wheel, an array (turns, 4): mean speed of travel [m/s], largest and smallest force [N], and share of time without
+    it [1]. All arguments are (n,): time [s], omega [rad/s], velocity [m/s], force [N]."""
     time, omega = checked(time, omega)
     velocity, force = checked(time, velocity)[1], checked(time, force)[1]
     angle = np.append(0.0, np.cumsum(0.5 * (omega[1:] + omega[:-1]) * np.diff(time)))

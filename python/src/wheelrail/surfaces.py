@@ -1,4 +1,7 @@
-"""Closed forms for irregular surfaces: contact filter, corrugation, flats, kinks. SI units, forces of the whole wheel."""
+"""Closed forms for irregular surfaces: contact filter, corrugation, flats, kinks. SI units, forces of the whole wheel.
+
+Arguments that may be arrays give arrays of their shape.
+"""
 
 from __future__ import annotations
 
@@ -33,12 +36,12 @@ def bessel_j0(x: ArrayLike) -> np.ndarray:
 
 
 def contact_filter(half_width: float, wavelength: ArrayLike) -> np.ndarray:
-    """Share of a sinusoid that a Hertzian line contact of this half-width feels, of first order: J0(2 pi a/lambda)."""
+    """Share [1] of a sinusoid of a wavelength [m] that a Hertzian line contact of this half-width [m] feels, of first order: J0(2 pi a/lambda)."""
     return bessel_j0(2.0 * np.pi * half_width / np.asarray(wavelength, float))
 
 
 def contact_filter_level(half_width: float, wavelength: ArrayLike) -> np.ndarray:
-    """The same as level [dB]."""
+    """Level [dB] of `contact_filter`, arguments in metres."""
     with np.errstate(divide="ignore"):
         return 20.0 * np.log10(np.abs(contact_filter(half_width, wavelength)))
 
@@ -62,6 +65,7 @@ def corrugation_force(
 ) -> np.ndarray:
     """Amplitude of the force [N] of a mass that rolls on its contact spring over a sinusoid.
 
+    `speed` [m/s], `amplitude` [m], `wavelength` [m], `half_width` [m], `stiffness` K [N/m], `mass` m [kg], `retardation` [s]:
     `A J0 |K* m w2/(K* - m w2)|` with `K* = K (1 + i w retardation)`: first order in the amplitude, rail on a fixed base.
     """
     omega = 2.0 * np.pi * np.asarray(speed, float) / wavelength
@@ -70,7 +74,7 @@ def corrugation_force(
 
 
 def flat_depth(length: ArrayLike, radius: float, shape: str = "fresh") -> np.ndarray:
-    """Depth [m] of a wheel flat: of the chord `r (1 - cos)`, close to L2/8r, or of a rounded one, L2/16r."""
+    """Depth [m] of a wheel flat of a length [m] on a radius [m]: of the chord `r (1 - cos)`, close to L2/8r, or of a rounded one, L2/16r."""
     if shape not in ("fresh", "rounded"):
         raise ValueError(f"shape = {shape!r} is neither fresh nor rounded")
     fresh = radius * (1.0 - np.sqrt(1.0 - (0.5 * np.asarray(length) / radius) ** 2))
@@ -78,7 +82,7 @@ def flat_depth(length: ArrayLike, radius: float, shape: str = "fresh") -> np.nda
 
 
 def kink_force(speed: ArrayLike, angle: float, stiffness: float, mass: float) -> np.ndarray:
-    """Additional force [N] at a kink of the path: `v angle sqrt(K m)`, a mass on its contact spring that changes direction.
+    """Additional force [N] at a kink of the path, at a speed [m/s], with an angle [rad], a stiffness [N/m] and a mass [kg]: `v angle sqrt(K m)`, a mass on its contact spring that changes direction.
 
     The P1 force of a dipped joint on a rigid track (Jenkins 1974) with the angle between both ends; of a wheel that follows a
     fresh flat of length L, with the angle L/r.
