@@ -170,6 +170,7 @@ def rigid(scenario):
     FrictionLaw.of(scenario.wheel | scenario.sweep.wheel)
     runs_straight(scenario.wheel | scenario.sweep.wheel)
     ignored = [name for name in scenario.wheel | scenario.sweep.wheel if name not in LAW]
+    ignored += ["temperatures"] if scenario.temperatures else []
     if ignored:
         print(f"rigid wheelsets know {' and '.join(LAW)} only; without effect: {', '.join(ignored)}", file=sys.stderr)
 

@@ -118,9 +118,10 @@ def of_run(run):
 
 
 def sorted_out(charts):
-    """Figures of `of_run` that a reader wants first, those of heat with their place, and the rest."""
-    first = [c for c in charts if c["title"] in FIRST] + [c | {"room": HOT} for c in charts if c["title"] in HEATED]
-    return first, [c for c in charts if c["title"] not in (*FIRST, *HEATED)]
+    """Figures of `of_run` that a reader wants first, those of heat with their place, and the rest; all come first where none else does."""
+    hot = [c | {"room": HOT} for c in charts if c["title"] in HEATED]
+    first, rest = [c for c in charts if c["title"] in FIRST], [c for c in charts if c["title"] not in (*FIRST, *HEATED)]
+    return (first + hot, rest) if first else (rest + hot, [])
 
 
 def _group(title, time, drawn, unit, note=""):
