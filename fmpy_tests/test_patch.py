@@ -45,6 +45,12 @@ def test_looking_at_lines_changes_nothing_in_a_run(run, fmu):
     assert plain.identical(run.drop_vars([name for name in run.data_vars if name.startswith("patch.")]))
 
 
+def test_the_patch_of_fmi_3_is_that_of_fmi_2(run, fmu3):
+    other = wheelrail.simulate(START, BRAKE, stop=6e-3, profiles=True, patch=True, fmu=fmu3, progress=False)
+    for name in (name for name in run.data_vars if name.startswith("patch.")):
+        np.testing.assert_array_equal(other[name], run[name])
+
+
 def test_a_line_beyond_those_of_the_patch_has_nothing_and_a_chosen_one_no_derivatives(start):
     wheel = start(START, BRAKE)
     wheel.set({"contact.shown_line": wheel.lines() + 1})

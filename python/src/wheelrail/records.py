@@ -170,19 +170,20 @@ class Recorder:
 def _patch_reader(wheel):
     """A function that reads the profiles of all lines of a patch: an array (line, quantity, node)."""
     lateral = bool(wheel.get("contact.lateral")) if "contact.lateral" in wheel.fmu.variables else False
-    wheel.fmu.variable(SHOWN)
+    number = [wheel.fmu.variable(SHOWN).valueReference]
     quantities = OF_PATCH if lateral else OF_PATCH[:-2]
-    names = [point for quantity in quantities for point in wheel.fmu.points(quantity)]
-    lines = wheel.lines()
+    points = [wheel.fmu.variable(point) for quantity in quantities for point in wheel.fmu.points(quantity)]
+    reader, lines = _reader(wheel, "Real", points), wheel.lines()
+    show = lambda line: wheel._call(wheel.slave.setInteger, number, [line])
 
     def read():
         shown, found = wheel.get(SHOWN), []
         try:
             for line in range(lines):
-                wheel.set({SHOWN: line + 1})
-                found.append(np.reshape(wheel.get(*names), (len(quantities), -1)))
+                show(line + 1)
+                found.append(np.reshape(reader(), (len(quantities), -1)))
         finally:
-            wheel.set({SHOWN: shown})
+            show(shown)
         return np.array(found)
 
     read.quantities = quantities
