@@ -80,11 +80,10 @@ fn traction_outputs(model: &RollingModel, traction: &Traction, others: Outputs) 
     }
 }
 
-/// Observables with the profiles of a line of the patch, counted from 1 in the order of `line.*`: zero for a line that the
-/// patch does not have, temperatures too.
+/// Observables with the profiles of a line of the patch, counted from 1 in the order of `line.*`: as they are for a line that
+/// the patch does not have.
 pub fn on_line(model: &RollingModel, state: &State, number: usize, outputs: Outputs) -> Outputs {
-    let none = Line::default();
-    let line = across::line(model, state, number).unwrap_or(&none);
+    let Some(line) = across::line(model, state, number) else { return outputs };
     let cold = || vec![0.0; PROFILE_POINTS];
     let mut surfaces = [cold(), cold(), cold()];
     if let (Some(heat), Some(thermal)) = (&model.thermal, &line.thermal) {
