@@ -26,6 +26,7 @@
 # make own-vehicle a wagon of one's own on eight wheels, one axle of which seizes: table and plot in results/
 # make surfaces  waves, holes, rough rails, flats and the contact filter: table and plot in results/
 # make ellipse   one brake application on patches of constant width and on an elliptical one: table and plot in results/
+# make published published tests and observations beside what is computed: table and picture in results/
 # make angle-of-attack  a wheel turned while it brakes, beside one that runs straight: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes, and those of every preset by speed and by brake:
 #                pressure, temperature, friction; an error where a limit is broken
@@ -45,7 +46,7 @@
 # make clean     remove everything that was built
 #                make TARGET ARGS="..." hands options to the program of any example, train, sweep, endurance and
 #                random-parameters, make ellipse ARGS=--help lists them; OUT=folder puts results elsewhere than in results/
-#                ARGS=--brief shortens masters, suspension, creep-curve, own-vehicle, surfaces, ellipse and angle-of-attack; other short
+#                ARGS=--brief shortens masters, suspension, creep-curve, own-vehicle, surfaces, ellipse, angle-of-attack and published; other short
 #                ones: make demo ARGS=--speed-kmh=20, make flat ARGS="--once --slide 0.1 --roll 0.2"
 
 PYTHON ?= python3
@@ -93,7 +94,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs site describe clean
+.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack published locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -204,6 +205,9 @@ surfaces: $(FMU) $(INSTALLED)
 
 ellipse: $(FMU) $(INSTALLED)
 	$(PY) examples/ex13_ellipse.py --fmu $(FMU) --out $(OUT) $(ARGS)
+
+published: $(FMU) $(RECORDS)
+	$(PY) examples/ex15_published.py --fmu $(FMU) --out $(OUT) $(ARGS)
 
 angle-of-attack: $(FMU) $(INSTALLED)
 	$(PY) examples/ex14_angle_of_attack.py --fmu $(FMU) --out $(OUT) $(ARGS)
@@ -333,37 +337,37 @@ $(BUILT): $(SOURCES)
 ifneq "$(shell cat $(INSTALLED) 2> /dev/null)" "$(CURDIR)"
 .PHONY: $(INSTALLED)
 endif
-$(INSTALLED): requirements.txt python/pyproject.toml
+$(INSTALLED): requirements/main.txt python/pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed, this is " + sys.version)'
 	$(PYTHON) -m venv --clear $(VENV)
-	$(PIP) --require-hashes -r requirements.txt
+	$(PIP) --require-hashes -r requirements/main.txt
 	$(PIP) --no-build-isolation --editable ./python
 	echo '$(CURDIR)' > $@
 
-$(MASTERS): requirements-masters.txt $(INSTALLED)
+$(MASTERS): requirements/masters.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
 
-$(TRAIN): requirements-train.txt $(INSTALLED)
+$(TRAIN): requirements/train.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
 
-$(NOTEBOOK): requirements-notebook.txt $(INSTALLED)
+$(NOTEBOOK): requirements/notebook.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
 
-$(VENV)/.browser: requirements-browser.txt $(INSTALLED)
+$(VENV)/.browser: requirements/browser.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
 
-$(RECORDS): requirements-records.txt $(INSTALLED)
+$(RECORDS): requirements/records.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
 
-$(PLATFORMS): requirements-platforms.txt $(INSTALLED)
+$(PLATFORMS): requirements/platforms.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
 
-$(SITE): requirements-site.txt $(INSTALLED)
+$(SITE): requirements/site.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@

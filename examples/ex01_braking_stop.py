@@ -25,7 +25,7 @@ import numpy as np
 from tqdm import tqdm
 
 from ex01_picture import draw
-from wheelrail import Fmu, Refused, Wheel, page
+from wheelrail import Fmu, Refused, Wheel, output, page
 from wheelrail.page.run import Profiles, of_table
 
 # Recorded across the contact patch.
@@ -164,6 +164,12 @@ def results(table):
     ]
 
 
+def write_columns(path, fmu):
+    """Writes the units and meanings of the columns of the CSV."""
+    about = [(name, fmu.variable(name).unit or "", fmu.variable(name).description) for name in COLUMNS]
+    output.write_rows(path, [("column", "unit", "description"), ("time", "s", "Time"), *about])
+
+
 def write_csv(path, table):
     """Writes the table with a header of names."""
     with open(path, "w", newline="") as file:
@@ -179,6 +185,7 @@ def write_page(path, wheel, parameters, dry, table, film):
     about = {
         "preset": parameters["preset"], "parameters": parameters, "inputs": {"drive.load": wheel.get("drive.load")},
         "warnings": list(wheel.log), "vehicle_mass": wheel.get("vehicle.mass"),
+        "figures": [(name, f"{value:.4g} {unit}") for name, value, unit in results(table)[:2]],
     }  # fmt: skip
     patch = Profiles(np.array(film.times), {quantity: film.profile(quantity) for quantity in PROFILES})
     title = f"Braking stop from {3.6 * parameters['initial.velocity']:g} km/h"
@@ -233,6 +240,8 @@ def run(options):
         table, wall = stop(wheel, options, moment, film)
         options.out.mkdir(parents=True, exist_ok=True)
         pages = write_page(options.out / "report.html", wheel, parameters, options.dry, table, film)
+        columns = options.out / "braking_stop_columns.csv"
+        write_columns(columns, fmu)
 
     figures = results(table)
     figures += [
@@ -252,7 +261,7 @@ def run(options):
     data, picture = options.out / "braking_stop.csv", options.out / "braking_stop.png"
     write_csv(data, table)
     draw(picture, {name: column(table, name) for name in ("time", *COLUMNS)}, film, radius)
-    print(f"\nwritten: {', '.join(map(str, (data, picture, *pages)))}")
+    print(f"\nwritten: {', '.join(map(str, (data, columns, picture, *pages)))}")
 
 
 if __name__ == "__main__":

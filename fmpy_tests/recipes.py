@@ -34,6 +34,7 @@ CHECKOUT = (
     short("ellipse", "--brief"),
     Recipe("make ellipse ARGS=--help", says="--brief"),
     short("angle-of-attack", "--brief"),
+    short("published", "--brief"),
     short("masters", "--brief"),
     short("suspension", "--brief"),
     short("own-vehicle", "--brief"),
@@ -109,6 +110,10 @@ WHEEL = (
     Recipe("python -m wheelrail flat run.csv"),
     Recipe("python -m wheelrail filter", says="CNOSSOS"),
     Recipe("python -m wheelrail report run.nc", says="run.html"),
+    Recipe("python -m wheelrail damage run.nc", says="hottest point of the tread"),
+    Recipe("python -m wheelrail export run.nc", ("python -m wheelrail export run.nc", "python -m wheelrail export run.nc --out film"), "patch.pvd"),
+    Recipe("python -m wheelrail steady --creepage 0:2e-3:5", ("python -m wheelrail steady", "python -m wheelrail steady --creepage 0:2e-3:5"), "contact.force_x"),
+    Recipe("python -m wheelrail completion bash", says="complete"),
     Recipe("python -m wheelrail report run.csv --out page.html", (".venv/bin/python -m wheelrail report RUN [--out FILE.html]",), "page.html"),
 )
 
@@ -173,7 +178,7 @@ NOT_RUN = {
         "pip install ./python", "pip install './python[records]'", "pip install 'wheelrail[records]'", "pip install 'wheelrail[report]'",
         "pip install exudyn", "pip install wheelrail", "python -m pip install 'wheelrail[sweep]'",
     ),
-    "the fixture does it: it makes the environment of the other recipes": ("python -m venv venv", "pip install wheelrail-….whl"),
+    "the fixture does it: it makes the environment of the other recipes": ("python -m venv venv", "pip install wheelrail-….whl", "pip install 'wheelrail-….whl[records]'"),
     "another test calls just that": (
         *(f"python examples/trials/{who}.py [DIRECTORY]" for who in ("brakes", "damage", "vehicle")), "fmpy validate",
     ),

@@ -15,7 +15,10 @@ from documented import ROOT, blocks, commands, documented, of_markdown, of_pytho
 from recipes import CHECKOUT, NOT_RUN, PROGRAM, WHEEL
 
 # What has been built is taken as it is: this test is no build.
-KEPT = ("target/release/.built", "target/release/.coach", "target/wheelrail.fmu", ".venv/.installed", ".venv/.train", ".venv/.masters")
+KEPT = (
+    "target/release/.built", "target/release/.coach", "target/wheelrail.fmu", ".venv/.installed", ".venv/.train", ".venv/.masters",
+    ".venv/.records",
+)  # fmt: skip
 MAKE = " ".join(["make", *(f"-o {path}" for path in KEPT)])
 VERSION = tomllib.loads((ROOT / "python/pyproject.toml").read_text())["project"]["version"]
 
@@ -66,8 +69,8 @@ def empty(tmp_path_factory, packed):
     environment = clean(PATH=f"{place / 'venv/bin'}:{os.environ['PATH']}", MPLBACKEND="Agg")
     make = (
         "import wheelrail, numpy, csv; assert wheelrail.__file__.startswith('venv') or '/venv/' in wheelrail.__file__, wheelrail.__file__\n"
-        "run = wheelrail.simulate({'initial.velocity': 20.0}, {'brake.torque': 8000.0}, stop=0.4, progress=False)\n"
-        "wheelrail.save(run, 'run.nc'); run.to_dataframe().astype(float).to_csv('run.csv')\n"
+        "run = wheelrail.simulate({'initial.velocity': 20.0}, {'brake.torque': 8000.0}, stop=0.4, progress=False, depth=True, patch=True)\n"
+        "wheelrail.save(run, 'run.nc'); wheelrail.table(run).astype(float).to_csv('run.csv')\n"
         "rows = [(0.01 * k, 1e-5 * numpy.sin(3.0 * k)) for k in range(500)]\n"
         "csv.writer(open('rail.csv', 'w')).writerows([('position', 'height'), *rows])\n"
     )
@@ -227,8 +230,9 @@ BEFORE = {
     "docs/train.md": "class MyProtection:\n    def __init__(self, wsp, speeds):\n        self.n = len(speeds)\n    def step(self, h, speeds):\n        return ['apply'] * self.n\n",
 }
 SHORTER = {
-    "README.md": [("stop_time=5", "stop_time=0.5")],
+    "docs/README.md": [("stop_time=5", "stop_time=0.5")],
     "docs/packages.md": [("stop_time=5.0", "stop_time=0.05")],
+    "docs/damage.md": [("stop=0.3", "stop=0.05"), ("range(150)", "range(40)")],
     "docs/train.md": [('"speed": 20.0', '"speed": 0.5'), ("Stop(loaded, fmu)", "Stop(loaded)")],
 }
 NEEDS = {"docs/packages.md": "libcosimpy"}

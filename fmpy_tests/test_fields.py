@@ -45,7 +45,7 @@ def test_a_series_names_its_times_and_files(series):
 
 
 def test_meshio_reads_the_same_numbers_from_both_forms(series):
-    meshio = pytest.importorskip("meshio", reason="meshio is not installed (requirements-records.txt)")
+    meshio = pytest.importorskip("meshio", reason="meshio is not installed (requirements/records.txt)")
     film, last = series
     for part in PARTS:
         binary, text = meshio.read(film / f"{part}_0002.vtu"), meshio.read(last / f"{part}.vtu")

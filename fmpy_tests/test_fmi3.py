@@ -83,7 +83,7 @@ def test_both_versions_have_the_same_variables(fmu, fmu3):
     assert two == three
     assert fmu.retired == fmu3.retired
     rows = [v for v in fmu3.description.modelVariables if v.dimensions]
-    assert len(fmu3.description.modelVariables) < 300 and len(rows) == 27
+    assert len(fmu3.description.modelVariables) < 300 and len(rows) == 29
     assert [v.name for v in fmu3.description.modelVariables if v.causality == "independent"] == ["time"]
 
 

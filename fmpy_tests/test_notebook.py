@@ -9,7 +9,7 @@ from conftest import ROOT
 from nbclient import NotebookClient
 
 NOTEBOOK = ROOT / "examples" / "ex10_notebook.ipynb"
-PICTURES = 3
+PICTURES = 4
 
 
 def outputs(notebook):

@@ -18,7 +18,7 @@ from wheelrail import output, page, plots, report, ssp, sweep_table
 from wheelrail.output import Unwritten, fresh, write
 
 FULL = 96 * 1024  # bytes of a small disk
-pytest.importorskip("xarray", reason="xarray is not installed (requirements-records.txt)")
+pytest.importorskip("xarray", reason="xarray is not installed (requirements/records.txt)")
 
 
 @pytest.fixture

@@ -218,7 +218,7 @@ def elliptical(fmu):
 
 def test_the_patch_from_above_is_as_long_wide_hot_and_loaded_as_the_fmu_says(elliptical):
     shown = film.of_run(of_dataset(elliptical))
-    lines = {name: np.array(rows, float) for name, rows in shown["lines"].items() if name not in ("units", "ahead")}
+    lines = {name: np.array(rows, float) for name, rows in shown["lines"].items() if name not in ("units", "ahead", "grid")}
     assert len(shown["time"]) == len(elliptical.time) == 51 and shown["lines"]["units"] == {"pressure": "MPa"}
     assert lines["pressure"].max(axis=1) == pytest.approx(1e-6 * elliptical["contact.pressure_max"].values, rel=1e-4)
     assert lines["z"] == pytest.approx(1e3 * elliptical["line.position"].values, rel=1e-4)
@@ -353,7 +353,7 @@ def test_a_page_is_one_file_of_less_than_six_megabytes_with_everything_escaped(r
 @pytest.fixture(scope="module")
 def browser():
     """A headless browser of the machine."""
-    driver = pytest.importorskip("playwright.sync_api", reason="playwright is not installed (requirements-browser.txt)")
+    driver = pytest.importorskip("playwright.sync_api", reason="playwright is not installed (requirements/browser.txt)")
     if BROWSER is None:
         pytest.skip("no browser (chromium or google-chrome) is installed")
     with driver.sync_playwright() as playwright:
@@ -422,7 +422,7 @@ def test_the_page_of_a_run_works_in_a_browser_without_network(run, tmp_path, bro
     entry.click()
     tab.wait_for_function("() => document.querySelector('#charts .plot').data[1].visible === 'legendonly'", timeout=10_000)
 
-    tab.click("#curves summary")
+    tab.click("#rest summary")
     tab.wait_for_function("() => document.querySelectorAll('#more .js-plotly-plot').length > 5")
     buttons = tab.evaluate("() => [...new Set([...document.querySelectorAll('.modebar-btn')].map((b) => b.dataset.title))]")
     assert sorted(buttons) == ["Download plot as a PNG", "Pan", "Reset axes", "Zoom"]

@@ -85,7 +85,7 @@ def test_slide_protection_keeps_wheels_turning_where_they_lock_without(coach, fm
 
 
 def test_the_coach_in_exudyn_stops_where_its_equations_say(coach, fmu):
-    pytest.importorskip("exudyn", reason="pip install -r requirements-train.txt")
+    pytest.importorskip("exudyn", reason="pip install -r requirements/train.txt")
     from wheelrail.multibody import MultibodyCoach
 
     coach.hold = 0.0

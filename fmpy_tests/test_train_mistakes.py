@@ -88,7 +88,7 @@ MISTAKES = [
     wrong(SCENARIO, '"hold": 2.0', '"fmu_coaches": [2]', "error: low_adhesion.json: fmu_coaches entry = 2 is outside 1 to 1"),
     wrong(SCENARIO, '"coach.json"', "5", "error: low_adhesion.json:4: vehicle is 5, not a text"),
     wrong(SCENARIO, '"disc_brake.json"', '"drum_brake.json"', "error: drum_brake.json: cannot be read"),
-    wrong(SCENARIO, '"solver.tolerance": 0.02', '"solver.tolerance": "fine"', "wheel.solver.tolerance is 'fine', not a number"),
+    wrong(SCENARIO, '"solver.tolerance": 0.02', '"solver.tolerance": ["fine"]', r"wheel.solver.tolerance is \['fine'\], no number, text or flag"),
     wrong(SCENARIO, '"hold": 2.0', '"adhesion": 0.1, "track": "dry.json"', "error: low_adhesion.json: track twice"),
     wrong(SCENARIO, '"friction.falling_ratio"', '"friction.limit"',
         "error: rigid wheelsets do not know friction.limit, only", code=1),

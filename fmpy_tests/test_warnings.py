@@ -22,7 +22,7 @@ COLD, LIGHT = "rail.temperature = 20 K", "drive.load = 100 N"
 DOUBT = "friction.coefficient = 3 is a ratio"
 DOUBTED = {"friction.coefficient": 3.0, "mesh.elements_per_half_width": 6}
 DOUBTFUL = {"rail.temperature": 20.0, "drive.load": 100.0}
-pytest.importorskip("xarray", reason="xarray is not installed (requirements-records.txt)")
+pytest.importorskip("xarray", reason="xarray is not installed (requirements/records.txt)")
 
 
 def line_of(text):

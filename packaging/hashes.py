@@ -1,6 +1,6 @@
 """Writes the hashes of pinned Python packages into the requirement files.
 
-    python3 packaging/hashes.py [FILE...]    requirements*.txt without arguments; needs the program uv
+    python3 packaging/hashes.py [FILE...]    requirements/*.txt without arguments; needs the program uv
 
 Run it after the version of a pin has changed: pip, which is asked for hashes, refuses a package whose file has none of the
 hashes that stand below its pin. All files of a version are listed, so that the pins hold for every platform and Python. Comments
@@ -56,7 +56,7 @@ def hashed(text):
 
 def main(files):
     """Rewrites files."""
-    for file in files or sorted(ROOT.glob("requirements*.txt")):
+    for file in files or sorted(ROOT.glob("requirements/*.txt")):
         path = Path(file)
         path.write_text(hashed(path.read_text()))
         print(path)

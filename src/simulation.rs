@@ -308,6 +308,12 @@ impl Simulation {
         &self.outputs
     }
 
+    /// Outputs of the present state, deferred ones included, with the profiles of a line of the patch, counted from 1.
+    pub fn outputs_on_line(&mut self, number: usize) -> Outputs {
+        let outputs = self.all_outputs().clone();
+        outputs::on_line(&self.model.rolling, &self.checkpoint.state, number, outputs)
+    }
+
     /// Times and outputs at both ends of the last communication step, deferred ones included; `None` before the first.
     pub fn step_ends(&self) -> Option<[(f64, Outputs); 2]> {
         let Checkpoint { state, before, origin, .. } = &self.checkpoint;

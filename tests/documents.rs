@@ -71,7 +71,7 @@ fn files_and_targets_of_make_that_the_recipes_for_hosted_runners_use_exist() {
     let (mut used, mut missing) = (0, Vec::new());
     for entry in fs::read_dir(root().join(".github/workflows")).unwrap() {
         let text = fs::read_to_string(entry.unwrap().path()).unwrap();
-        let paths = text.split_whitespace().filter(|w| is_path(w) || w.starts_with("requirements"));
+        let paths = text.split_whitespace().filter(|w| is_path(w) || w.starts_with("requirements/"));
         for path in paths.map(|path| path.trim_end_matches(['.', ',', ')'])) {
             used += 1;
             missing.extend((!root().join(path).exists()).then(|| path.to_owned()));

@@ -137,6 +137,30 @@ fn a_released_half_space_cools_as_in_closed_form() {
 }
 
 #[test]
+fn extremes_over_the_depth_are_those_of_the_place_that_took_most_heat() {
+    let spots = wheel(1.0);
+    let damage = released(&spots, 1100.0, 0.2, 4.0, 1e-3);
+    let (worst, found, depth) = (&damage.worst, damage.findings(), &spots.mesh().depth);
+    // All columns are heated alike, so that none is hotter than another; the place is one of them.
+    let arcs = &spots.mesh().arc;
+    assert!((arcs[0]..=arcs[arcs.len() - 1]).contains(&(worst.hottest - damage.spots[0].arc)), "{}", worst.hottest);
+    let round = 2.0 * PI * RADIUS;
+    let apart = (spots.hottest_angle(&damage).unwrap() * RADIUS - worst.hottest).rem_euclid(round);
+    assert!(apart.min(round - apart) < 1e-9, "{apart}");
+    assert_eq!(worst.peaks.iter().fold(0.0, |a: f64, b| a.max(*b)), found.peak);
+    let excess: Vec<f64> = worst.peaks.iter().map(|peak| peak - REFERENCE).collect();
+    let heat: f64 = (1..depth.len()).map(|k| 0.5 * (depth[k] - depth[k - 1]) * (excess[k] + excess[k - 1])).sum();
+    assert!((worst.heat / heat - 1.0).abs() < 0.05, "{} and {heat} K m", worst.heat);
+    let half = worst.martensite.iter().rposition(|share| *share >= 0.5).unwrap();
+    assert!(depth[half] <= found.martensite_depth && found.martensite_depth < depth[half + 1]);
+    assert!(worst.martensite.iter().all(|share| (0.0..1.0).contains(share)));
+    // A wheel without such a place knows none.
+    let cold = spots.begin([0.0; 2]);
+    assert_eq!((spots.hottest_angle(&cold), cold.hot_places()), (None, 0));
+    assert_eq!(damage.hot_places(), usize::from(damage.spots[0].is_hot()));
+}
+
+#[test]
 fn what_was_found_converges_in_mesh_and_step() {
     let all = [2.0, 1.0, 0.5].map(|resolution| released(&wheel(resolution), 1100.0, 0.5, 8.0, 1e-3).findings());
     let [rate, depth] = closed_form(1100.0, 0.5);

@@ -40,8 +40,8 @@ fn committed_reference_is_the_generated_one() {
 fn a_profile_is_one_row_and_its_points_are_scalars() {
     let arrays: Vec<_> = table().iter().filter(|row| row.dimension.is_some()).collect();
     let lines = arrays.iter().filter(|row| row.name.starts_with("line.")).count();
-    assert_eq!((arrays.len(), lines), (27, 14));
-    assert_eq!(variables().len(), table().len() - 27 + 13 * PROFILE_POINTS + 14 * MOST_LINES);
+    assert_eq!((arrays.len(), lines), (29, 14));
+    assert_eq!(variables().len(), table().len() - 29 + 15 * PROFILE_POINTS + 14 * MOST_LINES);
     let values: Vec<f64> = (0..PROFILE_POINTS).map(|k| k as f64).collect();
     let outputs = Outputs { profile_shear: values.clone(), ..Outputs::default() };
     let shear = arrays.iter().find(|row| row.name == "profile.shear").unwrap();

@@ -10,7 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 STAMP = ".venv/.installed"
-READ = ("Makefile", "requirements.txt", "python/pyproject.toml")
+READ = ("Makefile", "requirements/main.txt", "python/pyproject.toml")
 
 
 def up_to_date(folder, target=STAMP):

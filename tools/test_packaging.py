@@ -29,7 +29,7 @@ CARGO = os.environ.get("CARGO", "cargo")
 class Pins(unittest.TestCase):
     def setUp(self):
         self.pins = {}
-        for path in sorted(ROOT.glob("requirements*.txt")):
+        for path in sorted(ROOT.glob("requirements/*.txt")):
             for line in HASHES.logical_lines(path.read_text()):
                 if HASHES.pin(line):
                     self.pins.setdefault(HASHES.name(HASHES.pin(line)), []).append((path.name, line))

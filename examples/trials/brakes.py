@@ -2,7 +2,7 @@
 
     python examples/trials/brakes.py [DIRECTORY]
 
-Rigid wheelsets, which compute a stop in seconds, stand for those of the FMU: the calls are the same.
+Rigid wheelsets, which compute a stop in seconds, stand for those of the FMU but in one step: the calls are the same.
 """
 
 import contextlib
@@ -13,7 +13,7 @@ import shutil
 from pathlib import Path
 
 from steps import Trial
-from wheelrail import page, report, scenario
+from wheelrail import Fmu, page, report, scenario
 from wheelrail.__main__ import main
 from wheelrail.train import Stop
 
@@ -65,6 +65,17 @@ def sweep(out):
         longer = [float(row["extension over dry"]) for row in csv.DictReader(rows)]
     assert len(longer) == 2 and all(extension > 0.0 for extension in longer) and abs(longer[0] - longer[1]) > 1.0
     return f"extensions over dry {', '.join(f'{extension:.0f}' for extension in longer)} %"
+
+
+@trial.step("a train whose wheels have patches of ellipses, in the FMU", "one kind of wheel")
+def patches(out):
+    loaded = scenario.load(FILE, {"speed": 5.0, "step": 0.01, "wheel.preset": "railway_ellipse", "track.slope": 0.004})
+    with Fmu() as fmu, contextlib.closing(Stop(loaded, fmu)) as run:
+        for _ in range(10):
+            run.step(0.01)
+    seen = run.contacts.seen[0]
+    assert seen.load > 80e3 and seen.hottest > 290.0
+    return f"{1e-3 * seen.load:.0f} kN on an axle, contact of {seen.hottest - 273.15:.0f} °C"
 
 
 @trial.step("a page of stops to send around", "none")

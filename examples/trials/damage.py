@@ -5,7 +5,7 @@
 
 import wheelrail
 from steps import Trial
-from wheelrail import page
+from wheelrail import page, paraview
 from wheelrail.plots import pyplot
 
 trial = Trial("wheel damage")
@@ -57,6 +57,29 @@ def film(out):
     # A page without a film weighs nearly as much.
     assert '<section id="patch">' in (out / "slide.html").read_text(encoding="utf-8")
     return f"one page of {size / 1e6:.1f} MB"
+
+
+@trial.step("what the slide left, until it is cold", "a second run, told where to look")
+def left(out):
+    with wheelrail.Fmu() as fmu, wheelrail.Wheel(fmu, START) as wheel:
+        record = wheel.record(depth=True, every=5)
+        for _ in range(150):
+            wheel.set({"brake.torque": min(30e3, 1.5e6 * wheel.time)})
+            wheel.step(1e-3)
+        wheel.set({"brake.torque": 0.0})
+        wheelrail.damage.settle(wheel)
+    found = wheelrail.damage.report(record.dataset())
+    assert found.final and found.martensite_depth > 1e-4 and found.hardness.max() > 600.0
+    return f"martensite to {1e3 * found.martensite_depth:.2f} mm, {found.hardness.max():.0f} HV"
+
+
+@trial.step("the patch over x and z, for ParaView", "seven bars")
+def seen(out):
+    run = wheelrail.simulate({"preset": "railway_ellipse"} | START, {"brake.torque": 8e3}, stop=5e-3, patch=True, progress=False)
+    index = paraview.export(run, out / "film")
+    grid = wheelrail.patch(run)
+    assert index.is_file() and float(grid["pressure"].max()) > 1e9
+    return f"{grid.sizes['z']} × {grid.sizes['x']} places at {grid.sizes['time']} instants"
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from steps import Trial
-from wheelrail import Fmu, Refused, Wheel
+from wheelrail import Fmu, Refused, Wheel, steady
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import ex12_own_vehicle as own  # noqa: E402
@@ -33,6 +33,13 @@ def loop(out):
     run = record.dataset()
     assert run.sizes["time"] == 51 and run["contact.force_y"].attrs["units"] == "N"
     return f"{run.sizes['time']} samples of {len(run.data_vars)} outputs"
+
+
+@trial.step("a curve of forces over creepage", "another program, with Rust")
+def curve(out):
+    found = steady(COARSE, creepage=[0.0, 1e-3, 2e-3])
+    assert found["contact.utilisation"][-1] > found["contact.utilisation"][1] > 0.1
+    return f"{float(found['contact.utilisation'][1]):.2f} of the limit at 0.1 %"
 
 
 @trial.step("a misspelt name", "IndexError or no word")

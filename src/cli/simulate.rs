@@ -32,6 +32,9 @@ pub struct Simulate {
     /// File for the results instead of standard output.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// File for the names, units and meanings of the columns.
+    #[arg(long, value_name = "FILE.csv")]
+    columns: Option<PathBuf>,
     /// Variables to write, by FMI name; `profile.pressure` stands for all its points. If not given: speeds, forces,
     /// creepage, patch, temperatures, friction power, energy residual.
     #[arg(long, value_name = "NAMES", value_delimiter = ',', default_value = OUTPUTS, hide_default_value = true)]
@@ -52,6 +55,9 @@ impl Simulate {
         self.refuse_lost_files()?;
         let saved = self.wheel_profile.iter().map(|file| Setting::new("wheel.profile_save", file));
         let mut run = Run::start(&self.setup, &self.course, &saved.collect::<Result<Vec<_>, _>>()?)?;
+        if let Some(path) = &self.columns {
+            table::write_columns(path, &columns)?;
+        }
         let mut csv = Csv::create(self.out.as_deref())?;
         csv.header(["time"].into_iter().chain(columns.iter().map(|v| v.name)))?;
         // A bar and results on the same terminal would overwrite each other.
@@ -85,21 +91,25 @@ impl Simulate {
 }
 
 impl Simulate {
-    /// Refuses to write the results over the scenario or under the profile of the wheel.
+    /// Refuses two files in one place: results over the scenario, or under the profile of the wheel.
     fn refuse_lost_files(&self) -> Result<(), Failure> {
-        let Some(out) = &self.out else { return Ok(()) };
-        let others = [
+        let files = [
+            ("--out", self.out.clone()),
             ("--scenario", self.course.scenario.clone()),
+            ("--columns", self.columns.clone()),
             ("--wheel-profile", self.wheel_profile.as_ref().map(PathBuf::from)),
         ];
-        let lost = |path: &Option<PathBuf>| path.as_ref().is_some_and(|path| files::place(path) == files::place(out));
-        match others.into_iter().find(|(_, path)| lost(path)) {
-            Some((option, _)) => {
-                let file = out.display();
-                Err(Failure::Usage(format!("--out and {option} are one file, {file}; give each a path of its own")))
+        let given: Vec<_> = files.into_iter().filter_map(|(option, path)| Some((option, path?))).collect();
+        for (k, (option, path)) in given.iter().enumerate() {
+            let same = |other: &&(&str, PathBuf)| files::place(&other.1) == files::place(path);
+            if let Some((first, _)) = given.iter().take(k).find(same) {
+                let file = path.display();
+                return Err(Failure::Usage(format!(
+                    "{first} and {option} are one file, {file}; give each a path of its own"
+                )));
             }
-            None => Ok(()),
         }
+        Ok(())
     }
 }
 

@@ -80,6 +80,18 @@ impl Csv {
     }
 }
 
+/// Writes the columns of a file over time: name, SI unit and meaning, the time first.
+pub fn write_columns(path: &Path, variables: &[&Variable]) -> Result<(), Failure> {
+    let mut rows = csv::Writer::from_writer(Sink::File(create(path)?));
+    rows.write_record(["column", "unit", "description"])?;
+    rows.write_record(["time", "s", "Time"])?;
+    for variable in variables {
+        let unit = if let Kind::Real { measure, .. } = variable.kind { measure.unit } else { "" };
+        rows.write_record([variable.name, unit, variable.description])?;
+    }
+    Csv(rows).finish()
+}
+
 /// A new file; its directory is made if it is missing.
 pub fn create(path: &Path) -> Result<NewFile, Failure> {
     if let Some(parent) = path.parent() {

@@ -293,6 +293,9 @@ parameters! {
                 "Value of wheel.angle at which the point of the tread touches the rail below which temperatures are given over the \
                  depth; 0: the point that touches at the start. For a place that the locked wheel heats, the angle at which it is \
                  locked. Elsewhere these temperatures are means over the length of an element along the tread";
+            1211 expert shown_line: usize = 0, of "contact", from 0 to 13,
+                "Line of the patch whose profiles across the contact and over the depth are shown, counted from 1 as those of line.*; 0: the \
+                 line with the largest pressure. It counts at once and changes nothing but what is shown";
             1160 expert martensite_start: f64 = 575.0, of "damage", in "K" as "degC", from 1.0 to 1e4,
                 "Temperature Ms below which quickly cooled austenite becomes martensite";
             1161 expert critical_cooling: f64 = 50.0, of "damage", in "K/s", from 0.0 to 1e6,

@@ -256,7 +256,8 @@ impl RowValue for usize {
     }
     fn write(&mut self, value: &Value) {
         if let Value::Integer(value) = value {
-            *self = usize::try_from(*value).unwrap_or(0);
+            // A negative count is one that no row admits.
+            *self = usize::try_from(*value).unwrap_or(usize::MAX);
         }
     }
 }

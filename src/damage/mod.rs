@@ -16,6 +16,7 @@ mod record;
 mod shared;
 mod spot;
 mod tread;
+mod worst;
 
 pub use conduction::ConductionScratch;
 pub use fatigue::surface_fatigue;
@@ -25,6 +26,7 @@ pub use record::{Criteria, Findings, PointHistory, Records};
 use spot::Visit;
 pub use spot::{ColumnSampler, Spot, SpotField};
 pub use tread::Tread;
+pub use worst::Worst;
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
@@ -65,8 +67,8 @@ pub struct Damage {
     pub tread: Tread,
     /// Places that were heated in one piece, the oldest first.
     pub spots: Vec<Spot>,
-    /// Highest temperature at the depths of the mesh, of all these places so far \[K]; empty without any.
-    pub peaks: Vec<f64>,
+    /// Extremes of all these places so far.
+    pub worst: Worst,
     /// Findings at spots that had to make room.
     pub forgotten: Findings,
     /// Number of places heated in one piece so far; those that touch each other count as one.
@@ -143,7 +145,7 @@ impl HotSpots {
         }
         let nearest = damage.spots.iter().map(|spot| self.distance(spot, now).abs()).fold(f64::INFINITY, f64::min);
         for spot in &mut damage.spots {
-            self.advance_spot(spot, now, heats, sample, (&mut damage.peaks, scratch));
+            self.advance_spot(spot, now, heats, sample, (&mut damage.worst, scratch));
         }
         if heats && nearest > self.half_width {
             self.make_room(damage);
@@ -168,8 +170,7 @@ impl HotSpots {
         }
         let arc = (self.radius * now.angle).rem_euclid(TAU * self.radius);
         let spot = Spot::at(arc, temperature, mesh, &record);
-        damage.peaks.resize(layers, 0.0);
-        spot.raise(&mut damage.peaks);
+        spot.raise(mesh, self.reference, &mut damage.worst);
         damage.spots.push(spot);
     }
 
@@ -188,7 +189,7 @@ impl HotSpots {
         now: &TreadStep,
         heats: bool,
         sample: ColumnSampler,
-        (peaks, scratch): (&mut Vec<f64>, &mut ConductionScratch),
+        (worst, scratch): (&mut Worst, &mut ConductionScratch),
     ) {
         let distance = self.distance(spot, now);
         let under = self.stands(now.omega) && distance.abs() <= self.half_width;
@@ -202,8 +203,7 @@ impl HotSpots {
             spot.conduct(&self.mesh, now.dt, film, &record, scratch)
         };
         if news {
-            peaks.resize(self.mesh.depth.len(), 0.0);
-            spot.raise(peaks);
+            spot.raise(&self.mesh, self.reference, worst);
         }
         if !heats || !under {
             spot.rest_below(now.bulk + COLD * now.criteria.threshold);
@@ -240,6 +240,12 @@ impl HotSpots {
         damage.spots.iter().rev().any(|spot| spot.column(&self.mesh, beside(spot), &mut column)).then_some(column)
     }
 
+    /// Angle of the wheel between 0 and 2π at which the hottest place touches \[rad]; none without any.
+    pub fn hottest_angle(&self, damage: &Damage) -> Option<f64> {
+        let turn = |arc: f64| (arc / self.radius).rem_euclid(TAU);
+        (!damage.worst.peaks.is_empty()).then(|| turn(damage.worst.hottest))
+    }
+
     /// Coefficient of the heat that a rolling wheel gives to the cold rail, as a mean over a turn [W/(m² K)]: bodies of
     /// equal effusivity e that touch for the time t exchange `e ΔT √(t/π)` per area.
     fn chill(&self, now: &TreadStep) -> f64 {
@@ -269,8 +275,11 @@ impl HotSpots {
 
     /// Agreement of a history with the dimensions of this model.
     pub fn fits(&self, damage: &Damage) -> bool {
-        let peaks = damage.peaks.is_empty() || damage.peaks.len() == self.mesh.depth.len();
-        peaks && damage.spots.len() <= MOST_SPOTS && damage.spots.iter().all(|spot| spot.fits(&self.mesh))
+        let layers = [&damage.worst.peaks, &damage.worst.martensite].map(Vec::len);
+        let known =
+            layers.iter().all(|count| *count == 0) || layers.iter().all(|count| *count == self.mesh.depth.len());
+        let place = damage.worst.heat.is_finite() && damage.worst.hottest.is_finite();
+        known && place && damage.spots.len() <= MOST_SPOTS && damage.spots.iter().all(|spot| spot.fits(&self.mesh))
     }
 }
 
@@ -281,13 +290,18 @@ impl Damage {
         Findings { above_ac1: all.above_ac1.max(self.tread.longest()), ..all }
     }
 
+    /// Number of places that are still hot.
+    pub fn hot_places(&self) -> usize {
+        self.spots.iter().filter(|spot| spot.is_hot()).count()
+    }
+
     /// Replaces this by a copy, reusing memory.
     pub fn copy_from(&mut self, other: &Self) {
-        let Self { peak, rail_peak, tread, spots, peaks, forgotten, places } = other;
+        let Self { peak, rail_peak, tread, spots, worst, forgotten, places } = other;
         (self.peak, self.rail_peak) = (*peak, *rail_peak);
         self.tread.copy_from(tread);
         self.spots.clone_from(spots);
-        self.peaks.clone_from(peaks);
+        self.worst.clone_from(worst);
         (self.forgotten, self.places) = (*forgotten, *places);
     }
 }

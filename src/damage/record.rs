@@ -161,13 +161,8 @@ pub struct Records {
 
 impl Records {
     /// Highest temperatures \[K] and histories of the columns of `layers` points.
-    fn columns(&self, layers: usize) -> impl Iterator<Item = (&[f64], &[PointHistory])> {
+    pub(super) fn columns(&self, layers: usize) -> impl Iterator<Item = (&[f64], &[PointHistory])> {
         self.peaks.chunks_exact(layers).zip(self.histories.iter().map(Vec::as_slice))
-    }
-
-    /// Highest temperatures of all points so far \[K].
-    pub fn peaks(&self) -> &[f64] {
-        &self.peaks
     }
 
     /// Agreement with the dimensions of a mesh.

@@ -4,6 +4,7 @@ use super::conduction::{ConductionScratch, beside, conduct};
 use super::mesh::SpotMesh;
 use super::record::{Findings, Recorder, Records};
 use super::shared;
+use super::worst::Worst;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;
@@ -196,11 +197,23 @@ impl Spot {
         true
     }
 
-    /// Raises the highest temperatures at the depths of the mesh \[K] to those of this place.
-    pub(super) fn raise(&self, peaks: &mut [f64]) {
-        let depths = peaks.len();
-        for column in self.field().iter().flat_map(|field| field.records.peaks().chunks_exact(depths)) {
+    /// Raises extremes at the depths of the mesh to those of this place; `reference` is the absolute temperature without
+    /// excess \[K].
+    pub(super) fn raise(&self, mesh: &SpotMesh, reference: f64, worst: &mut Worst) {
+        let Some(field) = self.field() else { return };
+        let layers = mesh.depth.len();
+        let Worst { peaks, martensite, heat, hottest } = worst;
+        peaks.resize(layers, 0.0);
+        martensite.resize(layers, 0.0);
+        for (arc, (column, histories)) in mesh.arc.iter().zip(field.records.columns(layers)) {
             peaks.iter_mut().zip(column).for_each(|(peak, place)| *peak = peak.max(*place));
+            martensite.iter_mut().zip(histories).for_each(|(most, history)| *most = most.max(history.martensite));
+            let excess = |k: usize| column[k] - reference;
+            let within = |k: usize| 0.5 * (mesh.depth[k + 1] - mesh.depth[k]) * (excess(k) + excess(k + 1));
+            let found: f64 = (0..layers.saturating_sub(1)).map(within).sum();
+            if found > *heat {
+                (*heat, *hottest) = (found, self.arc + arc);
+            }
         }
     }
 

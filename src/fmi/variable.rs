@@ -156,6 +156,11 @@ impl Variable {
         matches!(self.access, Access::Output(OutputRow { read: Read::Deferred(_), .. }))
     }
 
+    /// True for a point of a profile, or a whole one: those that are of one line of the patch.
+    pub fn is_profile(&self) -> bool {
+        self.name.starts_with("profile.")
+    }
+
     /// Value of a real output, 0 for other variables.
     pub fn real_output(&self, outputs: &Outputs) -> f64 {
         match self.output(outputs) {

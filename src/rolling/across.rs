@@ -43,6 +43,11 @@ fn seen<'a>(model: &RollingModel, state: &'a State) -> Vec<Seen<'a>> {
     pairs(-1.0).rev().chain(single).chain(pairs(1.0)).map(of).collect()
 }
 
+/// The line of a number from 1 on, in the order of the lateral position.
+pub fn line<'a>(model: &RollingModel, state: &'a State, number: usize) -> Option<&'a Line> {
+    seen(model, state).get(number.checked_sub(1)?).map(|seen| seen.line)
+}
+
 /// Fills the outputs of every line.
 pub fn outputs(model: &RollingModel, state: &State, others: Outputs) -> Outputs {
     let seen = seen(model, state);

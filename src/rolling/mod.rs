@@ -13,7 +13,7 @@
 //! | [`nodes`] | nodes on which the contact is looked for |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
 //! | [`stationary`], [`substeps`], [`audit`] | start state; division of communication steps; energy balance |
-//! | [`output_rows`], [`outputs`], `across`, [`profile`], [`suggested_step`], [`fields`], [`sensitivity`] | what one can ask of a state |
+//! | [`output_rows`], `output_table`, [`outputs`], `across`, [`profile`], [`suggested_step`], [`fields`], [`sensitivity`] | what one can ask of a state |
 
 mod across;
 pub mod audit;
@@ -32,6 +32,7 @@ pub mod lines;
 pub mod model;
 pub mod nodes;
 pub mod output_rows;
+mod output_table;
 pub mod outputs;
 pub mod patch_lines;
 pub mod profile;

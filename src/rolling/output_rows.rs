@@ -1,5 +1,6 @@
 //! Outputs of the model at a communication point. An output is one row here, and its value in [`super::outputs`].
 
+use super::output_table::outputs;
 use super::profile::points;
 use crate::config::units::Measure;
 use serde::{Deserialize, Serialize};
@@ -42,79 +43,6 @@ pub struct OutputRow {
     pub read: Read,
     /// Name and meaning of every point of a profile; empty for other outputs.
     pub points: &'static [(&'static str, &'static str)],
-}
-
-/// Defines the outputs. A row has number, field, sort, name and meaning. Between the last two may stand: `in`, the SI
-/// unit, and `as`, the unit in which people like to read it; `from … to`, the range; `nominal`, the usual size; and
-/// `start zero` for what is zero at the start by definition.
-macro_rules! outputs {
-    (@type real) => { f64 };
-    (@type count) => { u64 };
-    (@type flag) => { bool };
-    (@type profile) => { Vec<f64> };
-    (@type deferred) => { Vec<f64> };
-    (@type lines) => { Vec<f64> };
-    (@mark real) => { 1.0 };
-    (@mark count) => { 1 };
-    (@mark flag) => { true };
-    (@mark $several:ident) => { vec![1.0] };
-    (@read real $field:ident) => { Read::Real(|outputs| outputs.$field) };
-    (@read count $field:ident) => { Read::Count(|outputs| outputs.$field) };
-    (@read flag $field:ident) => { Read::Flag(|outputs| outputs.$field) };
-    (@read profile $field:ident) => { Read::Profile(|outputs| &outputs.$field) };
-    (@read deferred $field:ident) => { Read::Deferred(|outputs| &outputs.$field) };
-    (@read lines $field:ident) => { Read::Profile(|outputs| &outputs.$field) };
-    (@points profile $name:literal $text:literal) => { points!($name, $text) };
-    (@points deferred $name:literal $text:literal) => { points!($name, $text) };
-    (@points lines $name:literal $text:literal) => { points!(lines $name, $text) };
-    (@points $sort:ident $name:literal $text:literal) => { &[] };
-    (@measure) => { Measure { unit: "1", display: None } };
-    (@measure $unit:literal) => { Measure { unit: $unit, display: None } };
-    (@measure $unit:literal $display:literal) => { Measure { unit: $unit, display: Some($display) } };
-    (@or $default:expr) => { $default };
-    (@or $default:expr, $value:literal) => { $value };
-    (@zero) => { false };
-    (@zero zero) => { true };
-    (
-        $(
-            $number:literal $field:ident: $sort:ident $name:literal
-                $(, in $unit:literal $(as $display:literal)?)?
-                $(, from $low:literal $(to $high:literal)?)?
-                $(, nominal $nominal:literal)?
-                $(, start $zero:ident)?
-                , $text:literal;
-        )*
-    ) => {
-        /// Everything the model returns at a communication point.
-        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-        pub struct Outputs {
-            $( #[doc = concat!($text, $(" \\[", $unit, "]",)? ".")] pub $field: outputs!(@type $sort), )*
-        }
-
-        impl Outputs {
-            /// Outputs none of which is what its default is.
-            #[cfg(test)]
-            pub fn marked() -> Self {
-                Self { $( $field: outputs!(@mark $sort) ),* }
-            }
-
-            /// The row of every output.
-            pub const ROWS: [OutputRow; [$( $number ),*].len()] = [$(
-                OutputRow {
-                    number: $number,
-                    name: $name,
-                    measure: outputs!(@measure $($unit $($display)?)?),
-                    low: outputs!(@or f64::NEG_INFINITY $(, $low)?),
-                    high: outputs!(@or f64::INFINITY $($(, $high)?)?),
-                    nominal: outputs!(@or 1.0 $(, $nominal)?),
-                    starts_at_zero: outputs!(@zero $($zero)?),
-                    text: $text,
-                    read: outputs!(@read $sort $field),
-                    points: outputs!(@points $sort $name $text),
-                },
-            )*];
-        }
-    };
 }
 
 outputs! {
@@ -286,6 +214,12 @@ outputs! {
     706 flats: count "damage.flats", start zero,
         "Places of the tread that the contact heated by more than damage.threshold while the wheel (nearly) stood still; places \
          that touch each other count once";
+    720 hottest_point: real "damage.hottest_point", in "rad" as "deg", from 0.0, nominal 1.0, start zero,
+        "Value of wheel.angle at which the place touches that became hottest over its depth, of those counted by damage.flats: where the \
+         highest temperatures so far have the largest integral over the depth. For thermal.tread_point; 0 without any";
+    721 hot_places: count "damage.hot_places", start zero,
+        "Places of the tread, of those counted by damage.flats, that are still hot: while there are any, steel cools, and \
+         damage.cooling_rate and damage.martensite_depth may change";
     707 rail_peak: real "damage.rail_peak", in "K" as "degC", from 0.0, nominal 300.0,
         "Temperature of the hottest point of the rail that has passed the contact so far, absolute; 0 without \
          thermal.enabled";
@@ -391,6 +325,10 @@ outputs! {
         "Depth below the tread";
     18000 profile_peak: profile "profile.peak_temperature", in "K" as "degC", from 0.0, nominal 300.0,
         "Highest temperature so far at that depth, of the places counted by damage.flats; thermal.reference without any";
+    26000 profile_martensite: profile "profile.martensite", in "1" as "%", from 0.0 to 1.0, nominal 0.5,
+        "Largest share of martensite so far at that depth, of the places counted by damage.flats; 0 without any";
+    27000 profile_hottest_below: deferred "profile.temperature_hottest_below", in "K" as "degC", from 0.0, nominal 300.0,
+        "Temperature of the wheel below damage.hottest_point, at profile.depth; below the contact point as long as there is none";
     19000 profile_wheel_below: deferred "profile.temperature_wheel_below", in "K" as "degC", from 0.0, nominal 300.0,
         "Temperature of the wheel below the contact point, at profile.depth";
     20000 profile_rail_below: deferred "profile.temperature_rail_below", in "K" as "degC", from 0.0, nominal 300.0,

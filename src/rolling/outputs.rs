@@ -9,6 +9,7 @@ use super::profile::{PROFILE_POINTS, profile_depths, profile_points};
 use super::state::State;
 use super::suggested_step::suggested_step;
 use super::thermal_state::ThermalState;
+use crate::contact::Traction;
 use crate::damage::surface_fatigue;
 use crate::heat::HeatFlows;
 use crate::piecewise::Piecewise;
@@ -33,7 +34,6 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
     let force = state.resultant().map(|force| force * width);
     let friction_force = libm::hypot(state.sum(|line| line.contact.traction.friction_force()) * width, force.lateral);
     let [v, v_c] = speeds(model, state);
-    let points = profile_points(model.zone);
     let others = across::outputs(model, state, surface_outputs(model, state, pressed, others));
     let others = energy_outputs(model, state, traction.pressure_max, others);
     Outputs {
@@ -62,13 +62,45 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
         limited_steps: state.clock.limited_steps,
         iterations: state.clock.iterations,
         suggested_step: suggested_step(model, state),
+        ..lateral_outputs(model, state, motion_outputs(model, state, traction_outputs(model, traction, others)))
+    }
+}
+
+/// Profiles of the tractions of a line across the contact zone.
+fn traction_outputs(model: &RollingModel, traction: &Traction, others: Outputs) -> Outputs {
+    let points = profile_points(model.zone);
+    Outputs {
         profile_pressure: sampled(&traction.pressure, &points),
         profile_shear: sampled(&traction.shear, &points),
         profile_slip: sampled(&traction.slip, &points),
         profile_shear_z: sampled(&traction.lateral_shear, &points),
         profile_slip_z: sampled(&traction.lateral_slip, &points),
         profile_x: points,
-        ..lateral_outputs(model, state, motion_outputs(model, state, others))
+        ..others
+    }
+}
+
+/// Observables with the profiles of a line of the patch, counted from 1 in the order of `line.*`: as they are for a line that
+/// the patch does not have.
+pub fn on_line(model: &RollingModel, state: &State, number: usize, outputs: Outputs) -> Outputs {
+    let Some(line) = across::line(model, state, number) else { return outputs };
+    let cold = || vec![0.0; PROFILE_POINTS];
+    let mut surfaces = [cold(), cold(), cold()];
+    if let (Some(heat), Some(thermal)) = (&model.thermal, &line.thermal) {
+        let absolute = |surface: &[f64]| surface.iter().map(|t| heat.reference() + t).collect();
+        surfaces = [absolute(&thermal.surface[0]), absolute(&thermal.surface[1]), heat.peaks(thermal)];
+    }
+    let [profile_temperature_wheel, profile_temperature_rail, profile_peak] = surfaces;
+    let [profile_wheel_below, profile_rail_below, profile_tread_below] = columns(model, state, Some(line));
+    let others = traction_outputs(model, &line.contact.traction, outputs);
+    Outputs {
+        profile_temperature_wheel,
+        profile_temperature_rail,
+        profile_peak,
+        profile_wheel_below,
+        profile_rail_below,
+        profile_tread_below,
+        ..others
     }
 }
 
@@ -163,16 +195,33 @@ pub fn observe_all(model: &RollingModel, state: &State) -> Outputs {
 /// under the line with the largest pressure.
 pub fn complete(model: &RollingModel, state: &State, outputs: &mut Outputs) {
     let shown = state.line_of_largest(|line| line.contact.traction.pressure_max);
-    let columns = match (&model.thermal, shown.and_then(|line| line.thermal.as_ref())) {
+    let columns = columns(model, state, shown);
+    [outputs.profile_wheel_below, outputs.profile_rail_below, outputs.profile_tread_below] = columns;
+    let hottest = hottest_line(state).and_then(|line| line.thermal.as_ref());
+    outputs.profile_hottest_below = match (&model.thermal, hottest) {
+        (Some(heat), Some(thermal)) => {
+            let angle = state.motion.angle;
+            let [.., below] =
+                heat.below(thermal, angle, heat.history().hottest_angle(&thermal.damage).unwrap_or(angle));
+            below
+        }
+        _ => vec![0.0; PROFILE_POINTS],
+    };
+}
+
+/// Absolute temperatures \[K] over the depth at a line: of wheel and rail below the contact point, and below the point of
+/// the tread that is looked at; zero without heat.
+fn columns(model: &RollingModel, state: &State, line: Option<&Line>) -> [Vec<f64>; 3] {
+    match (&model.thermal, line.and_then(|line| line.thermal.as_ref())) {
         (Some(heat), Some(thermal)) => heat.below(thermal, state.motion.angle, state.tread_point),
         _ => [(); 3].map(|()| vec![0.0; PROFILE_POINTS]),
-    };
-    [outputs.profile_wheel_below, outputs.profile_rail_below, outputs.profile_tread_below] = columns;
+    }
 }
 
 /// Empties what [`complete`] fills.
 pub fn forget(outputs: &mut Outputs) {
     [outputs.profile_wheel_below, outputs.profile_rail_below, outputs.profile_tread_below] = Default::default();
+    outputs.profile_hottest_below = Vec::new();
 }
 
 /// Values of a profile at ascending positions.
@@ -205,7 +254,8 @@ fn thermal_outputs(model: &RollingModel, state: &State, shown: &Line, others: Ou
         return Outputs {
             profile_temperature_wheel: cold.clone(),
             profile_temperature_rail: cold.clone(),
-            profile_peak: cold,
+            profile_peak: cold.clone(),
+            profile_martensite: cold,
             profile_depth: profile_depths(),
             ..Outputs::default()
         };
@@ -217,6 +267,7 @@ fn thermal_outputs(model: &RollingModel, state: &State, shown: &Line, others: Ou
     let over_patch = |value: &dyn Fn(&ThermalState) -> f64| state.mean_over_area(|line| of(value, line));
     let most = |value: &dyn Fn(&ThermalState) -> f64| state.largest(|line| of(value, line));
     let absolute = |surface: &[f64]| surface.iter().map(|t| kelvin + t).collect();
+    let damaged = hottest_line(state).and_then(|line| line.thermal.as_ref()).map(|thermal| &thermal.damage);
     Outputs {
         temperature_wheel_max: kelvin + most(&|thermal| thermal.temperatures.wheel_max),
         temperature_rail_max: kelvin + most(&|thermal| thermal.temperatures.rail_max),
@@ -232,7 +283,10 @@ fn thermal_outputs(model: &RollingModel, state: &State, shown: &Line, others: Ou
         profile_temperature_wheel: absolute(&thermal.surface[0]),
         profile_temperature_rail: absolute(&thermal.surface[1]),
         profile_peak: heat.peaks(thermal),
+        profile_martensite: damaged
+            .map_or_else(|| vec![0.0; PROFILE_POINTS], |damage| heat.history().martensite(damage)),
         profile_depth: profile_depths(),
+        hottest_point: damaged.and_then(|damage| heat.history().hottest_angle(damage)).unwrap_or(0.0),
         ..flow_outputs(model, state, others)
     }
 }
@@ -260,8 +314,7 @@ fn flow_outputs(model: &RollingModel, state: &State, others: Outputs) -> Outputs
 
 /// Outputs about the structure of the steel, of the line with the hottest tread so far.
 fn damage_outputs(state: &State, others: Outputs) -> Outputs {
-    let peak = |line: &Line| line.thermal.as_ref().map_or(0.0, |thermal| thermal.damage.peak);
-    let Some(thermal) = state.line_of_largest(peak).and_then(|line| line.thermal.as_ref()) else {
+    let Some(thermal) = hottest_line(state).and_then(|line| line.thermal.as_ref()) else {
         return Outputs::default();
     };
     let damage = &thermal.damage;
@@ -273,9 +326,15 @@ fn damage_outputs(state: &State, others: Outputs) -> Outputs {
         cooling_rate: found.cooling_rate,
         martensite_depth: found.martensite_depth,
         flats: damage.places,
+        hot_places: damage.hot_places() as u64,
         rail_peak: damage.rail_peak,
         ..others
     }
+}
+
+/// The line with the hottest tread so far.
+fn hottest_line(state: &State) -> Option<&Line> {
+    state.line_of_largest(|line| line.thermal.as_ref().map_or(0.0, |thermal| thermal.damage.peak))
 }
 
 /// `a/b`, zero where b is not positive.

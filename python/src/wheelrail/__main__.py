@@ -1,8 +1,8 @@
-"""Command line: `wheelrail` or `python -m wheelrail` with `train|sweep|ssp SCENARIO`, `report RUN`, `schema KIND`; what results
-say: see `analysis`."""
+"""Command line: `wheelrail` or `python -m wheelrail` with `train|sweep|ssp SCENARIO`, `steady`, `report|export RUN`,
+`schema KIND`, `completion SHELL`; what results say: see `analysis`."""
 
-import argparse
 import json
+import logging
 import math
 import os
 import sys
@@ -10,7 +10,7 @@ import time
 from contextlib import ExitStack
 from pathlib import Path
 
-from . import __version__, analysis
+from . import __version__, analysis, completion, damage, operating, paraview
 from . import scenario as scenarios
 from .compare import Died
 from .controllers import ControllerFailed
@@ -23,10 +23,15 @@ from .sweep_command import SweepStopped
 from .sweep_command import run as sweep
 from .train import TrackEnds
 from .warn import WheelrailWarning, in_lines
+from .wheelset import patches_of
 
 
-# Commands of the program in Rust, which is not part of this package.
-OF_RUST = ("simulate", "steady", "export", "describe", "pack")
+# Commands that need no scenario, by the modules that run them.
+ON_RECORDS = {"report": page, "steady": operating, "damage": damage, "export": paraview}
+LEVELS = ("debug", "info", "warning")
+# Commands of the program in Rust, which is not part of this package, and options by which it knows those of the same name.
+OF_RUST = ("simulate", "describe", "pack")
+WHOLE_BODIES = ("--scenario", "--creepage", "--velocity", "--every", "--stop", "--preset", "--set")  # options of its `export`
 
 
 def called():
@@ -35,20 +40,13 @@ def called():
     return name if name in ("wheelrail", "wheelrail-train") else "python -m wheelrail"
 
 
-def arguments(argv=None):
-    """Command line."""
-    parser = argparse.ArgumentParser(prog=called(), description="A train brakes; what results say.")
-    parser.add_argument("--version", action="version", version=f"wheelrail {__version__}")
-    commands = parser.add_subparsers(dest="command", required=True)
+def parser():
+    """What the command line takes."""
+    made = completion.Parser(prog=called(), description="A train brakes; what results say.")
+    made.add_argument("--version", action="version", version=f"wheelrail {__version__}")
+    commands = made.add_subparsers(dest="command", required=True)
     for name, about in (("train", "one stop dry, with and without slide protection"), ("sweep", "many stops")):
-        command = commands.add_parser(name, help=about)
-        command.add_argument("scenario", type=Path, help="JSON file, see `python -m wheelrail schema scenario`")
-        command.add_argument("--out", type=Path, default=Path("results"), help="results go to OUT/SCENARIO, default %(default)s")
-        command.add_argument("--force", action="store_true", help="overwrite results that are there")
-        wheels = command.add_mutually_exclusive_group()
-        wheels.add_argument("--fmu", type=Path, default=default_path(), help="default: %(default)s")
-        wheels.add_argument("--rigid", action="store_true", help="rigid wheelsets with a creep law, no FMU")
-        command.add_argument("--step", type=float, help="communication step [s] in place of the scenario's")
+        add_stop(commands.add_parser(name, help=about))
     sweep = commands.choices["sweep"]
     sweep.add_argument("--scheduler", help="address of a dask scheduler; default: workers on this machine")
     sweep.add_argument("--workers", type=int, default=2, help="on this machine, default %(default)s")
@@ -62,17 +60,37 @@ def arguments(argv=None):
     ssp.add_argument("--stop", type=float, default=10.0, help="end of the default experiment [s], default %(default)g")
     schema = commands.add_parser("schema", help="JSON Schema of a kind of file")
     schema.add_argument("kind", choices=list(scenarios.SCHEMAS))
-    analysis.add_commands(commands)
-    page.add_command(commands)
+    for others in (operating, analysis, page, damage, paraview, completion):
+        others.add_command(commands)
     for command in commands.choices.values():
         command.add_argument("--version", action="version", version=f"wheelrail {__version__}")
-    wanted = next(iter(sys.argv[1:] if argv is None else argv), "")
-    if wanted in OF_RUST:
-        parser.error(
-            f"{wanted} is a command of the program in Rust, target/release/wheelrail of a checkout; in Python, wheelrail.simulate() "
-            "computes a run, and the commands are " + ", ".join(commands.choices)
+        command.add_argument("--log", choices=LEVELS, help="say on the error stream what is done, from this level on")
+    return made
+
+
+def add_stop(command):
+    """Arguments of `train` and `sweep`."""
+    command.add_argument("scenario", type=Path, help="JSON file, see `python -m wheelrail schema scenario`")
+    command.add_argument("--out", type=Path, default=Path("results"), help="results go to OUT/SCENARIO, default %(default)s")
+    command.add_argument("--force", action="store_true", help="overwrite results that are there")
+    wheels = command.add_mutually_exclusive_group()
+    wheels.add_argument("--fmu", type=Path, default=default_path(), help="default: %(default)s")
+    wheels.add_argument("--rigid", action="store_true", help="rigid wheelsets with a creep law, no FMU")
+    command.add_argument("--step", type=float, help="communication step [s] in place of the scenario's")
+
+
+def arguments(argv=None):
+    """Command line. What only the program in Rust has is refused by name."""
+    made, given = parser(), sys.argv[1:] if argv is None else argv
+    made.wanted = next(iter(given), "")
+    of_rust = made.wanted in OF_RUST or made.wanted == "export" and any(option in given for option in WHOLE_BODIES)
+    if of_rust:
+        what = "export of whole bodies" if made.wanted == "export" else made.wanted
+        made.error(
+            f"{what} is a command of the program in Rust, target/release/wheelrail of a checkout; in Python, wheelrail.simulate() "
+            "computes a run, and the commands are " + ", ".join(name for name in completion.options_of(made) if name)
         )
-    return parser.parse_args(argv)
+    return made.parse_args(argv)
 
 
 def train(options, scenario):
@@ -94,7 +112,8 @@ def train(options, scenario):
 
         stops = compare.side_by_side(scenario, None if options.rigid else options.fmu, progress, endless)
     if stops:
-        print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}\n")
+        print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}")
+        print(f"wheelsets: {wheels(options, scenario)}\n")
         print("\n".join(report.lines({name: report.figures(table) for name, (table, _) in stops.items()})))
         written = [out / "train_columns.csv", out / "train.png", *(path_of[name] for name in stops)]
         written += [out / "train.html"] if page.drawable() else []
@@ -111,6 +130,14 @@ def train(options, scenario):
         print(f"\n{simulated:.0f} s simulated in {wall:.0f} s; written to {out}: {', '.join(path.name for path in written)}")
     if endless:
         raise TrackEnds("; ".join(f"{name}: {endless[name]}" for name in path_of if name in endless))
+
+
+def wheels(options, scenario):
+    """Words on what rolls."""
+    if options.rigid:
+        return "rigid, with a creep law"
+    with Fmu(options.fmu) as fmu:
+        return patches_of(fmu, scenario.vehicle.wheelset, scenario.wheel, scenario.temperatures)
 
 
 def packages(options, scenario):
@@ -143,6 +170,7 @@ def rigid(scenario):
     FrictionLaw.of(scenario.wheel | scenario.sweep.wheel)
     runs_straight(scenario.wheel | scenario.sweep.wheel)
     ignored = [name for name in scenario.wheel | scenario.sweep.wheel if name not in LAW]
+    ignored += ["temperatures"] if scenario.temperatures else []
     if ignored:
         print(f"rigid wheelsets know {' and '.join(LAW)} only; without effect: {', '.join(ignored)}", file=sys.stderr)
 
@@ -155,7 +183,7 @@ def opened(path, scenario):
         )
     try:
         with Fmu(path) as known:
-            parameters = [v.name for v in known.description.modelVariables if v.causality == "parameter"]
+            parameters = {v.name: v for v in known.description.modelVariables if v.causality == "parameter"}
     except Exception as error:  # whatever zip, XML and fmpy say of a file that is no FMU
         raise BadFile(f"{path} is no FMU: {' '.join(str(error).split()) or type(error).__name__}") from None
     if "mesh.elements_per_half_width" not in parameters:
@@ -187,6 +215,11 @@ def main(argv=None):
     if options.command == "schema":
         print(json.dumps(json_schema(scenarios.SCHEMAS[options.kind]), indent=2))
         return
+    if options.command == "completion":
+        print(completion.script(parser(), options.shell), end="")
+        return
+    if options.log:
+        logging.basicConfig(level=options.log.upper(), format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
     try:
         with in_lines():
             run(options)
@@ -213,8 +246,8 @@ def run(options):
     if options.command in analysis.COMMANDS:
         analysis.run(options)
         return
-    if options.command == "report":
-        page.run(options)
+    if options.command in ON_RECORDS:
+        ON_RECORDS[options.command].run(options)
         return
     scenario = scenarios.load(options.scenario)
     if options.command == "ssp":

@@ -5,21 +5,25 @@ Results are CSV files with a header, such as `wheelrail simulate --out run.csv` 
 
 import csv
 import difflib
+import re
 from pathlib import Path
 
 import numpy as np
 
-from . import signals, surfaces
+from . import report, signals, surfaces
 from .output import fresh, write_rows
+from .page.sources import guessed
 from .tables import BadFile, number_in, read_table
 
+UNIT = re.compile(r"\s+\[[^\]]*\]$")  # behind the name of a column
 FORCE = "contact.force_y"
 SHARES = (0.5, 0.9, 0.99, 0.999)  # of time, of which the level that is not exceeded is printed
 
 
 def read_columns(path, names):
-    """Columns of a CSV file by name, as arrays."""
+    """Columns of a CSV file by name, as arrays in the units of the file; names may have units in brackets, `force [kN]`."""
     header, head, lines = read_table(path)
+    header = [name if name in names else UNIT.sub("", name) for name in header]
     for name in names:
         if name not in header:
             near = difflib.get_close_matches(name, header, n=3) or header[:8]
@@ -31,7 +35,7 @@ def read_columns(path, names):
     return list(np.array(table).T)
 
 
-def add_commands(commands):
+def add_command(commands):
     """Declares the commands."""
     about = {
         "force": "statistics of a column over time: moments, probability density, exceedance",
@@ -65,8 +69,32 @@ def run(options):
     print("\n".join(lines))
     table, picture = options.out / f"{name}.csv", options.out / f"{name}.png"
     write_rows(table, [header, *([f"{value:.9g}" for value in row] for row in rows)])
+    columns = table.with_name(f"{name}_columns.csv")
+    report.write_columns(columns, [(column, *told(column, options)) for column in header])
     save(picture, draw)
-    print(f"written: {table}, {picture}")
+    print(f"written: {table}, {columns}, {picture}")
+
+
+def told(column, options):
+    """Unit and meaning of a column that a command writes; where it follows from that of the file, in its words."""
+    of, over = getattr(options, "column", ""), getattr(options, "over", "")
+    found = {
+        "density": (f"1/({unit_of(of)})", "probability density over time of the first column"),
+        "exceedance": ("1", "share of time in which the first column is above its value"),
+        "frequency": (f"1/({unit_of(over)})", "middle of the band, or the line of the spectrum"),
+        "amplitude": (unit_of(of), f"amplitude of {of}"), "wavelength": ("m", "of the surface"),
+        "level": ("dB", f"level of {of}"), "limit": ("dB", "EN ISO 3095:2013"), "speed": ("m/s", "mean of a turn"),
+        "largest": (unit_of(of), f"largest {of} of a turn"), "smallest": (unit_of(of), f"smallest {of} of a turn"),
+        "share_without_contact": ("1", "share of the turn in which nothing touches"),
+        "filter": ("dB", "contact filter of a line contact"), "cnossos": ("dB", "that of CNOSSOS-EU"),
+    }  # fmt: skip
+    return found.get(column, (unit_of(column), "column of the file"))
+
+
+def unit_of(name):
+    """SI unit of a variable of the FMU by its name, or what to take for it."""
+    known = {"time": "s", "position": "m", "height": "m"}
+    return known.get(name) or guessed(name) or f"unit of {name}"
 
 
 def save(path, draw):

@@ -1,28 +1,37 @@
 """Stops side by side: dry, on the track with slide protection, on the track without. Each in a process of its own."""
 
+from __future__ import annotations
+
 import multiprocessing
 import queue
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import nullcontext
 from copy import deepcopy
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
 
 from .fmu import Fmu
 from .interrupt import kept_from_children
+from .rail_map import RailMap
 from .train import Stop, TrackEnds
 from .warn import Once, collected
 
 DRY, PROTECTED, UNPROTECTED = "dry", "WSP on", "WSP off"
 
 
-def variants(scenario):
+def variants(scenario: SimpleNamespace) -> dict[str, tuple[SimpleNamespace, float | None]]:
     """The three stops: name to (scenario, friction in place of the track's)."""
     protected, unprotected = deepcopy(scenario), deepcopy(scenario)
     protected.brake.wsp.active, unprotected.brake.wsp.active = True, False
     return {DRY: (protected, scenario.dry), PROTECTED: (protected, None), UNPROTECTED: (unprotected, None)}
 
 
-def stop(name, scenario, dry, path, news=None):
+def stop(name: str, scenario: SimpleNamespace, dry: float | None, path: Path | None, news: Any = None) -> tuple[str, np.ndarray, RailMap]:
     """One stop: name, its table and its rail. `path` of the FMU, or None for rigid wheelsets; `news` is a queue that gets
     (name, share done) about a hundred times, and (name, warnings), which are not said then."""
     with Fmu(path) if path else nullcontext() as fmu, collected() if news is not None else nullcontext() as texts:
@@ -53,7 +62,12 @@ class Died(Exception):
     """A stop whose process was killed."""
 
 
-def side_by_side(scenario, path, progress=lambda name, done: None, endless=None):
+def side_by_side(
+    scenario: SimpleNamespace,
+    path: Path | None,
+    progress: Callable[[str, int], None] = lambda name, done: None,
+    endless: dict[str, Exception] | None = None,
+) -> dict[str, tuple[np.ndarray, RailMap]]:
     """All variants at once; name to (table, rail map). The first that fails ends the others, but one that comes to no end, in time
     or on the track, is put into `endless`, name to error, if that is given."""
     context = multiprocessing.get_context("spawn")

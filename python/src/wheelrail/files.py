@@ -98,6 +98,23 @@ class Flag:
 
 
 @dataclass(frozen=True)
+class Setting:
+    """A number from `low` to `high`, a text or a flag: the value of a parameter, whose own type the FMU knows."""
+
+    low: float
+    high: float
+    about: str
+    default: float | None = None
+
+    def check(self, value):
+        """What is wrong with the value."""
+        if isinstance(value, (str, bool)):
+            return None
+        number = isinstance(value, (int, float)) and math.isfinite(value)
+        return Real(self.low, self.high, "", self.about).check(value) if number else f"is {value!r}, no number, text or flag"
+
+
+@dataclass(frozen=True)
 class Several:
     """A list of values of one kind."""
 
@@ -202,6 +219,8 @@ def _describe(field):
             return {"type": "string"} | ({"enum": list(field.choices)} if field.choices else {}) | about
         case Flag():
             return {"type": "boolean"} | about
+        case Setting():
+            return {"type": ["number", "string", "boolean"]} | about
         case Several():
             return {"type": "array", "minItems": 1, "items": _describe(field.item)} | about
         case Named():

@@ -1,29 +1,40 @@
 """One instance of wheelrail.fmu, of FMI 2.0 or 3.0, on fmpy: variables by name, enumerations by item name, SI units."""
 
+from __future__ import annotations
+
 import difflib
+import logging
 import os
 import re
+from collections.abc import Iterable, Mapping
 from itertools import count
 from numbers import Real
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self
 from weakref import finalize
 from xml.etree import ElementTree
 from zipfile import BadZipFile
 
 import fmpy
+from fmpy.model_description import ScalarVariable
 
-from .calls import Calls
+from .calls import Calls, Message
 from .folder import TemporaryFolder
 from .instances import scalars, unloaded
 from .values import Refused, check_names, kind, plain, saved_state, short, to_fmu
 from .warn import warn
 
+if TYPE_CHECKING:
+    from .records import Recorder
+
+log = logging.getLogger(__name__)
+LEVELS = {0: logging.INFO, 1: logging.WARNING}  # of messages by their status; others are refusals
 WARNING = 1  # status of messages about calls that worked
 AT = re.compile(r"^t = \S+ s: ")  # with which the FMU begins warnings
 _numbers = count(1)
 
 
-def default_path():
+def default_path() -> Path:
     """The FMU named by the environment variable WHEELRAIL_FMU, else the one inside this package, else that of a checkout."""
     inside, built = Path(__file__).with_name("wheelrail.fmu"), Path("target/wheelrail.fmu")
     return Path(os.environ.get("WHEELRAIL_FMU") or (inside if inside.is_file() else built))
@@ -32,7 +43,7 @@ def default_path():
 class Fmu:
     """An FMU extracted once, for any number of instances: that at `path`, or at `default_path()`. A context manager."""
 
-    def __init__(self, path=None):
+    def __init__(self, path: str | os.PathLike | None = None) -> None:
         path = default_path() if path is None else path
         if not isinstance(path, (str, os.PathLike)):
             raise ValueError(f"Fmu({path!r}): expected the path of an FMU, or nothing")
@@ -53,7 +64,7 @@ class Fmu:
         notes = ElementTree.parse(Path(self.directory, "modelDescription.xml")).iter("Retired")
         self.retired = {note.get("name"): note.get("refusal") for note in notes}
 
-    def variable(self, name):
+    def variable(self, name: str) -> ScalarVariable:
         """The variable of a name."""
         if not isinstance(name, str):
             raise ValueError(f"{name!r} is not the name of a variable, such as 'contact.force_x'")
@@ -64,16 +75,16 @@ class Fmu:
             raise Refused(f"the FMU has no variable {name}" + "".join(f"; did you mean {other}?" for other in close))
         return self.variables[name]
 
-    def profiles(self):
+    def profiles(self) -> list[str]:
         """Names of the quantities of `Wheel.profile`."""
         points = (name.removeprefix("profile.") for name in self.variables if name.startswith("profile."))
         return list(dict.fromkeys(point.split("[")[0] for point in points))
 
-    def of_lines(self):
+    def of_lines(self) -> list[str]:
         """Names of the quantities that each line of the patch has, such as `line.pressure_max`."""
         return list(dict.fromkeys(name.split("[")[0] for name in self.variables if name.startswith("line.")))
 
-    def points(self, quantity):
+    def points(self, quantity: str) -> list[str]:
         """Names of the variables that are the points of a profile, or of a quantity of lines (`line.pressure_max`)."""
         stem = quantity if quantity in self.of_lines() else f"profile.{quantity}"
         names = [name for name in self.variables if name.startswith(f"{stem}[")]
@@ -84,10 +95,10 @@ class Fmu:
         known = self.profiles()
         raise Refused(f"the FMU has no profile {quantity!r}; it has {', '.join(known) or 'none, being built without'}")
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self._folder.remove()
 
 
@@ -103,13 +114,21 @@ class Wheel:
     `status`: 1 of warnings, 2 of steps that were discarded, 3 of calls that were refused.
     """
 
-    def __init__(self, fmu, parameters=None, inputs=None, name="wheel"):
+    def __init__(
+        self,
+        fmu: Fmu,
+        parameters: Mapping[str, object] | None = None,
+        inputs: Mapping[str, object] | None = None,
+        name: str = "wheel",
+    ) -> None:
         if not hasattr(fmu, "description"):
             raise ValueError(f"Wheel({short(fmu)}): expected an opened FMU, `with Fmu(path) as fmu: Wheel(fmu)`")
         for values in (parameters, inputs):
             check_names(values or {}, "Wheel")
-        self.fmu, self.time = fmu, 0.0
-        self.log, self._heard, self._said, self._recorders = [], 0, set(), []
+        self.fmu, self.name = fmu, name
+        self.time = 0.0  # s
+        self.log: list[Message] = []
+        self._heard, self._said, self._recorders = 0, set(), []
         self._calls = Calls(self.log)
         self.slave = instance(fmu, f"{name}-{next(_numbers)}", self._calls)
         self._free = finalize(self, _free, self.slave, self._calls)
@@ -121,19 +140,23 @@ class Wheel:
             self._set(given | (parameters or {}))
             self._call(self.slave.enterInitializationMode)
             self._set(inputs or {})
-            self._call(self.slave.exitInitializationMode)
+            self._begin()
             self._say()
         except BaseException:
             self._free()
             raise
 
-    def __enter__(self):
+    def _begin(self):
+        """Ends initialization, after which the wheel steps."""
+        self._call(self.slave.exitInitializationMode)
+
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def close(self):
+    def close(self) -> None:
         """Terminates and frees the instance; nothing happens if that has been done. Records keep what they have. A process
         that was forked leaves the instance to the one that made it."""
         if isinstance(self.slave, _Closed):
@@ -146,7 +169,7 @@ class Wheel:
             self.slave = _Closed()
         self._say()
 
-    def set(self, values):
+    def set(self, values: Mapping[str, object]) -> None:
         """Sets variables: `set({"drive.load": 8e4, "control.rotation": "velocity"})`."""
         check_names(values, "set")
         self._set(values)
@@ -161,7 +184,7 @@ class Wheel:
         if reals:
             self._call(self.slave.setReal, *map(list, zip(*reals)))
 
-    def set_rates(self, values):
+    def set_rates(self, values: Mapping[str, float]) -> None:
         """Sets time derivatives of real inputs for the next step only: they ramp instead of holding their values."""
         check_names(values, "set_rates")
         given = [(variable, to_fmu(variable, values[variable.name])) for variable in map(self.fmu.variable, values)]
@@ -172,7 +195,7 @@ class Wheel:
         self._call(self.slave.setRealInputDerivatives, references, [1] * len(references), rates)
         self._say()
 
-    def get(self, *names):
+    def get(self, *names: str) -> Any:
         """Values of variables of any types, choices by number; one name gives a scalar, several a list."""
         if not names:
             raise ValueError("get() needs the name of a variable, such as get('contact.force_x')")
@@ -183,7 +206,7 @@ class Wheel:
         values = [plain(variable, values[variable.valueReference]) for variable in variables]
         return values[0] if len(names) == 1 else values
 
-    def profile(self, quantity):
+    def profile(self, quantity: str) -> list[float]:
         """A profile as a list over its points.
 
         Across the contact patch: `x` [m], positive ahead of the wheel centre, `pressure` [Pa], `shear` [Pa], `slip` [m/s], and across `shear_z`, `slip_z`,
@@ -194,30 +217,38 @@ class Wheel:
         """
         return self.get(*self.fmu.points(quantity))
 
-    def lines(self):
+    def lines(self) -> int:
         """Number of lines of the patch across its width: `contact.line_count`, at most `contact.lines`."""
         return int(self.get("contact.line_count"))
 
-    def has_constant_width(self):
+    def has_constant_width(self) -> bool:
         """Whether the patch is a line of constant width: `contact.shape` = line."""
         shape = self.fmu.variables.get("contact.shape")
         return shape is None or shape.declaredType.items[int(self.get(shape.name)) - 1].name == "line"
 
-    def line(self, quantity):
+    def line(self, quantity: str) -> list[float]:
         """What each line of the patch has as a list in the order of their positions: `line("pressure_max")`."""
         points = self.fmu.points(f"line.{str(quantity).removeprefix('line.')}")[: self.lines()]
         values = self.get(*points)
         return values if len(points) > 1 else [values]
 
-    def record(self, *outputs, profiles=False, depth=False, every=1, title=""):
+    def record(
+        self,
+        *outputs: str,
+        profiles: bool | str | Iterable[str] = False,
+        depth: bool | str | Iterable[str] = False,
+        every: int = 1,
+        title: str = "",
+        patch: bool = False,
+    ) -> Recorder:
         """A recorder of this wheel, which takes a sample now and after every `every`-th `step`: see `records.Recorder`."""
         from .records import Recorder
 
-        recorder = Recorder(self, outputs or None, profiles=profiles, depth=depth, every=every, title=title)
+        recorder = Recorder(self, outputs or None, profiles=profiles, depth=depth, every=every, title=title, patch=patch)
         self._recorders.append(recorder)
         return recorder
 
-    def step(self, h):
+    def step(self, h: float) -> None:
         """Advances by `h` seconds."""
         if not isinstance(h, Real):
             raise ValueError(f"step({short(h)}): expected a number of seconds")
@@ -226,16 +257,21 @@ class Wheel:
             recorder.stepped()
         self._say()
 
-    def advance(self, h):
+    def sample(self) -> None:
+        """Lets all records take a sample now, whose turn it may not be."""
+        for recorder in self._recorders:
+            recorder.sample()
+
+    def advance(self, h: float) -> None:
         """Advances by a part of `h` seconds of a step; records do not count it."""
         self._call(self.slave.doStep, self.time, h)
         self.time += h
 
-    def save(self):
+    def save(self) -> tuple[object, float]:
         """A handle for `restore`; free it with `forget`."""
         return self._call(self.slave.getFMUstate), self.time
 
-    def restore(self, saved):
+    def restore(self, saved: tuple[object, float]) -> None:
         """Returns to a saved state; records lose what came after it."""
         state, time = saved_state(saved)
         for recorder in self._recorders:
@@ -246,7 +282,7 @@ class Wheel:
             recorder.rewind()
         self._say()
 
-    def forget(self, saved):
+    def forget(self, saved: tuple[object, float]) -> None:
         """Frees a saved state."""
         self._call(self.slave.freeFMUstate, saved_state(saved)[0])
 
@@ -265,6 +301,7 @@ class Wheel:
         while self._heard < len(self.log):
             message = self.log[self._heard]
             self._heard += 1
+            log.log(LEVELS.get(message.status, logging.ERROR), "%s: %s", self.name, message)
             if message.status == WARNING and (text := AT.sub("", message)) not in self._said:
                 self._said.add(text)
                 warn(str(message))
@@ -277,7 +314,7 @@ class _Closed:
         raise Refused("the wheel is closed: read its results before, or record them")
 
 
-def instance(fmu, name, call):
+def instance(fmu: Fmu, name: str, call: Calls) -> Any:
     """An instance of the FMU's library, which is loaded with it."""
     here = os.getcwd()
     if not Path(fmu.directory).is_dir():

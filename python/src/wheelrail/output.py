@@ -1,26 +1,31 @@
 """Files that this package writes: beside what is there, and put in its place when all of it is safe on the disk."""
 
+from __future__ import annotations
+
 import csv
+import logging
 import os
 import secrets
 import shutil
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from threading import Lock
 
+log = logging.getLogger(__name__)
 _lock, _owned = Lock(), set()
 
 
 class Unwritten(OSError):
     """A file that could not be written; what was there before is unchanged."""
 
-    def __init__(self, path, why, kept=False):
+    def __init__(self, path: str | Path, why: str, kept: bool = False) -> None:
         super().__init__(f"{path} cannot be written: {why}" + ("; the file that was there is unchanged" if kept else ""))
         self.why = why
 
 
 @contextmanager
-def fresh(path):
+def fresh(path: str | Path) -> Iterator[Path]:
     """The path of a file beside `path`, with the same ending, which takes its place in the end. What goes wrong removes it."""
     target = Path(os.path.realpath(path))
     if target.exists() and not (target.is_file() or target.is_dir()):  # a device or a pipe has no place to take
@@ -38,23 +43,24 @@ def fresh(path):
             with open(beside, "rb+") as file:
                 os.fsync(file.fileno())
             os.replace(beside, target)
+            log.info("written: %s", path)
         finally:
             beside.unlink(missing_ok=True)
 
 
-def write(path, content):
+def write(path: str | Path, content: str | bytes | memoryview) -> None:
     """Writes text or bytes."""
     with fresh(path) as new:
         new.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
-def write_rows(path, rows):
+def write_rows(path: str | Path, rows: Iterable[Iterable[object]]) -> None:
     """Writes a CSV file."""
     with fresh(path) as new, open(new, "w", newline="", encoding="utf-8") as file:
         csv.writer(file).writerows(rows)
 
 
-def append(path, text):
+def append(path: Path, text: str) -> None:
     """Adds text to the end of a file, all of it or nothing."""
     size = path.stat().st_size if path.is_file() else None
     with _owner(Path(os.path.realpath(path)), path), _failing(path, size is not None):

@@ -17,10 +17,13 @@ b = sqrt(conductivity density heat capacity) [J/(m2 K sqrt(s))], has left at t (
 Solids, 10.3).
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 SHORTEST = 1e-3  # s: equation (3) does not hold while the wheel is still there
 
@@ -39,13 +42,13 @@ class RailLaw:
     width: float  # w, m
     effusivity: float  # b, J/(m2 K sqrt(s))
 
-    def friction(self, degraded, recovered, energy, sand):
-        """Equations (1) and (2): degraded and recovered friction [1], energy [J/m], sand [kg/m]."""
+    def friction(self, degraded: ArrayLike, recovered: ArrayLike, energy: ArrayLike, sand: ArrayLike) -> np.ndarray:
+        """Friction [1] by equations (1) and (2): degraded and recovered friction [1], energy [J/m], sand [kg/m], arrays of one shape."""
         cleaned = recovered + (degraded - recovered) * np.exp(-energy / self.cleaning_energy)
         return cleaned + np.maximum(self.sand_friction - cleaned, 0.0) * -np.expm1(-sand / self.sand_mass)
 
-    def temperature(self, heat, age):
-        """Equation (3) for one passage: heat [J/m], age [s]."""
+    def temperature(self, heat: ArrayLike, age: ArrayLike) -> np.ndarray:
+        """Excess temperature [K] by equation (3) for each passage: heat [J/m], age [s], arrays of one shape."""
         return heat / (self.width * self.effusivity * np.sqrt(np.pi * np.maximum(age, SHORTEST)))
 
 
@@ -55,7 +58,7 @@ class RailMap:
     `degraded` and `recovered` are the friction coefficients of the cells before any wheel and after cleaning [1].
     """
 
-    def __init__(self, begin, cell, degraded, recovered, law, axles):
+    def __init__(self, begin: float, cell: float, degraded: ArrayLike, recovered: ArrayLike, law: RailLaw, axles: int) -> None:
         self.begin, self.cell, self.law = begin, cell, law
         self.degraded, self.recovered = np.asarray(degraded, float), np.asarray(recovered, float)
         shape = (axles, len(self.degraded))
@@ -64,31 +67,31 @@ class RailMap:
         self.time = np.full(shape, -np.inf)  # s, of the passage
         self.sand = np.zeros(shape)  # kg per cell, by the axle in front of which it was laid
 
-    def centres(self):
-        """Positions of the middle of the cells [m]."""
+    def centres(self) -> np.ndarray:
+        """Positions of the middle of the cells, (cells,) [m]."""
         return self.begin + self.cell * (np.arange(len(self.degraded)) + 0.5)
 
-    def friction(self, position, axle):
+    def friction(self, position: float, axle: int) -> float:
         """Friction coefficient [1] that an axle meets at a position [m]; linear between the middles of cells."""
         cells, shares = self._around(position)
         energy = self.energy[:axle, cells].sum(axis=0) / self.cell
         sand = self.sand[: axle + 1, cells].sum(axis=0) / self.cell
         return float(shares @ self.law.friction(self.degraded[cells], self.recovered[cells], energy, sand))
 
-    def temperature(self, position, axle, time):
+    def temperature(self, position: float, axle: int, time: float) -> float:
         """Excess temperature [K] of the rail that arrives under an axle at a time [s]."""
         cells, shares = self._around(position)
         age = time - self.time[:axle, cells]
         return float(shares @ self.law.temperature(self.heat[:axle, cells] / self.cell, age).sum(axis=0))
 
-    def leave(self, axle, start, end, time, energy, heat=0.0):
+    def leave(self, axle: int, start: float, end: float, time: float, energy: float, heat: float = 0.0) -> None:
         """An axle that moved from `start` to `end` [m] leaves friction energy and heat [J] there, spread evenly."""
         cells, shares = self._between(start, end)
         self.energy[axle, cells] += shares * energy
         self.heat[axle, cells] += shares * heat
         self.time[axle, cells] = time
 
-    def lay_sand(self, axle, start, end, mass):
+    def lay_sand(self, axle: int, start: float, end: float, mass: float) -> None:
         """Sand of a mass [kg] falls evenly in front of an axle that moved from `start` to `end` [m]."""
         cells, shares = self._between(start, end)
         self.sand[axle, cells] += shares * mass

@@ -1,21 +1,43 @@
 """Records of a wheel: its outputs over time as an xarray Dataset, with units, meanings and what the run was made from."""
 
+from __future__ import annotations
+
 import importlib
 import json
 import re
+from collections.abc import Iterable
 from fnmatch import fnmatchcase
 from io import BytesIO
 from math import isclose
 from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
+from fmpy.model_description import ScalarVariable
 
 from . import output
 from .instances import BUFFERS
+from .origin import settings
 from .values import Refused, kind, short
 
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+    from .fmu import Wheel
+
+Record = TypeVar("Record")  # a Dataset or a DataArray
+
 # Profiles over the depth below the surface; all others lie across the contact patch.
-BELOW = ("depth", "peak_temperature", "temperature_wheel_below", "temperature_rail_below", "temperature_tread_below")
+BELOW = (
+    "depth", "peak_temperature", "martensite", "temperature_wheel_below", "temperature_rail_below", "temperature_tread_below",
+    "temperature_hottest_below",
+)  # fmt: skip
+# Profiles of every line of a patch, the last two with lateral creepage only, and what says where they are.
+OF_PATCH = ("pressure", "shear", "slip", "temperature_wheel", "temperature_rail", "shear_z", "slip_z")
+SHOWN = "contact.shown_line"
+PLACED = ("profile.x", "line.position", "line.half_length")
 SAME_TIME = 1e-12  # relative difference of times that is rounding
 
 
@@ -24,26 +46,37 @@ class Recorder:
 
     `outputs` are names and patterns (`contact.*`) of variables, by themselves all outputs that are no profiles; `profiles`
     are those across the contact patch, all with `True`, or some by name (`["pressure", "slip"]`), and `depth` the
-    temperatures below the surface in the same way. What each line of the patch has (`line.pressure_max`) is among the
-    outputs where the patch has a width of its own; a patch of constant width has one line, recorded if it is named.
-    Inputs are always recorded. `Wheel.record` makes recorders, and
-    `Wheel.restore` takes back what came after the state that it returns to.
+    temperatures and martensite below the surface in the same way. `patch` records the profiles of every line of the patch
+    besides, as `patch.pressure` and so on over `time`, `line` and `node`, which `wheelrail.patch` lays on a grid. What each line
+    of the patch has (`line.pressure_max`) is among the outputs where the patch has a width of its own; a patch of constant width
+    has one line, recorded if it is named. Inputs are always recorded. `Wheel.record` makes recorders, and `Wheel.restore` takes
+    back what came after the state that it returns to.
     """
 
-    def __init__(self, wheel, outputs=None, profiles=False, depth=False, every=1, title=""):
+    def __init__(
+        self,
+        wheel: Wheel,
+        outputs: str | Iterable[str] | None = None,
+        profiles: bool | str | Iterable[str] = False,
+        depth: bool | str | Iterable[str] = False,
+        every: int = 1,
+        title: str = "",
+        patch: bool = False,
+    ) -> None:
         if isinstance(every, bool) or not isinstance(every, int) or every < 1:
             raise ValueError(f"every = {short(every)} is no number of steps, 1 or more")
-        _library("xarray")
+        library("xarray")
         self.wheel, self.every, self.title = wheel, every, title
         fmu = wheel.fmu
-        self.scalars, self.arrays = _chosen(wheel, outputs, profiles, depth)
+        self.scalars, self.arrays = _chosen(wheel, outputs, profiles, depth, patch)
+        self._patch = _patch_reader(wheel) if patch else None
         inputs = [v for v in fmu.variables.values() if v.causality == "input" and v not in self.scalars]
         variables = self.scalars + inputs + [point for points in self.arrays.values() for point in points]
         self._inputs = inputs
         self._readers = [_reader(wheel, sort, variables) for sort in BUFFERS]
         self._readers = [reader for reader in self._readers if reader]
         self._depths = wheel.profile("depth") if self._over_depth() else None
-        self._settings = _settings(wheel)
+        self._settings = settings(wheel)
         self._warnings, self._heard = [], 0
         self._times, self._samples, self._steps = [], [], []
         self.sample()
@@ -51,15 +84,17 @@ class Recorder:
     def _over_depth(self):
         return any(name.removeprefix("profile.") in BELOW for name in self.arrays)
 
-    def stepped(self):
+    def stepped(self) -> None:
         """Takes note of a step, and a sample if it is its turn."""
         self._steps.append(self.wheel.time)
         if len(self._steps) % self.every == 0:
             self.sample()
 
-    def sample(self):
+    def sample(self) -> None:
         """Takes a sample now, in the place of one of the same time."""
         values = [reader() for reader in self._readers]
+        if self._patch:
+            values.append(self._patch())
         if self._times and isclose(self._times[-1], self.wheel.time, rel_tol=SAME_TIME):
             self._times[-1], self._samples[-1] = self.wheel.time, values
         else:
@@ -67,7 +102,7 @@ class Recorder:
             self._samples.append(values)
         self.listen()
 
-    def rewind(self):
+    def rewind(self) -> None:
         """Drops steps, samples and warnings from after the present time of the wheel."""
         self._warnings = [(heard, warning) for heard, warning in self._warnings if heard <= self.wheel.time]
         while self._steps and self._steps[-1] > self.wheel.time:
@@ -76,7 +111,7 @@ class Recorder:
             self._times.pop()
             self._samples.pop()
 
-    def listen(self):
+    def listen(self) -> None:
         """Takes note of new warnings and refusals, with the time that they name, or else that of the sample."""
         for message in self.wheel.log[self._heard :]:
             if message.status:
@@ -85,14 +120,14 @@ class Recorder:
                 self._warnings.append((self.wheel.time, warning))
         self._heard = len(self.wheel.log)
 
-    def dataset(self):
+    def dataset(self) -> xarray.Dataset:
         """The Dataset: data variables by their FMU names, over `time` [s] and, of profiles, `node` or `depth` [m],
         and of what each line of the patch has, `line`.
 
         Inputs that never changed stand in the attribute `inputs`. Attributes besides: `fmu_version`, `preset`, `title`,
         `parameters` that differ from the preset, `warnings`; the last three of lists and values as JSON.
         """
-        xarray = _library("xarray")
+        xarray = library("xarray")
         self.listen()
         time = ("time", np.array(self._times), {"units": "s", "long_name": "Time"})
         data, coordinates, held = {}, {"time": time}, {}
@@ -114,6 +149,11 @@ class Recorder:
             block, first = column[points[0].valueReference]
             values = block[:, first : first + len(points)]
             data[name] = (("time", _place(name)), values, attributes(points[0]))
+        if self._patch:
+            rows = np.array([sample[-1] for sample in self._samples])
+            for k, quantity in enumerate(self._patch.quantities):
+                about = attributes(self.wheel.fmu.variable(self.wheel.fmu.points(quantity)[0]))
+                data[f"patch.{quantity}"] = (("time", "line", "node"), rows[:, :, k], about)
         if "profile.x" in data:
             # The zone in which there may be contact does not move, and neither do the points.
             coordinates["x"] = ("node", data["profile.x"][1][0], data["profile.x"][2])
@@ -122,9 +162,32 @@ class Recorder:
             coordinates["z"] = ("line", data["line.position"][1][0], data["line.position"][2])
         if self._depths is not None:
             coordinates["depth"] = ("depth", self._depths, attributes(self.wheel.fmu.variable(self.wheel.fmu.points("depth")[0])))
-        settings = self._settings | {"inputs": held, "warnings": [warning for _, warning in self._warnings]}
-        texts = {name: value if isinstance(value, str) else json.dumps(value) for name, value in settings.items()}
+        origin = self._settings | {"inputs": held, "warnings": [warning for _, warning in self._warnings]}
+        texts = {name: value if isinstance(value, str) else json.dumps(value) for name, value in origin.items()}
         return xarray.Dataset(data, coordinates, texts | {"title": self.title or f"wheel on rail, {self._settings['preset']}"})
+
+
+def _patch_reader(wheel):
+    """A function that reads the profiles of all lines of a patch: an array (line, quantity, node)."""
+    lateral = bool(wheel.get("contact.lateral")) if "contact.lateral" in wheel.fmu.variables else False
+    number = [wheel.fmu.variable(SHOWN).valueReference]
+    quantities = OF_PATCH if lateral else OF_PATCH[:-2]
+    points = [wheel.fmu.variable(point) for quantity in quantities for point in wheel.fmu.points(quantity)]
+    reader, lines = _reader(wheel, "Real", points), wheel.lines()
+    show = lambda line: wheel._call(wheel.slave.setInteger, number, [line])
+
+    def read():
+        shown, found = wheel.get(SHOWN), []
+        try:
+            for line in range(lines):
+                show(line + 1)
+                found.append(np.reshape(reader(), (len(quantities), -1)))
+        finally:
+            show(shown)
+        return np.array(found)
+
+    read.quantities = quantities
+    return read
 
 
 def _place(name):
@@ -134,7 +197,7 @@ def _place(name):
     return "depth" if name.removeprefix("profile.") in BELOW else "node"
 
 
-def attributes(variable):
+def attributes(variable: ScalarVariable) -> dict[str, str]:
     """Unit and meaning of a variable: in short as `long_name`, and if there is more to say, all of it as `comment`."""
     text = variable.description or variable.name
     text = text.rsplit(", point ", 1)[0] if "[" in variable.name else text
@@ -143,16 +206,16 @@ def attributes(variable):
     return ({"units": variable.unit} if variable.unit else {}) | {"long_name": short_name} | more
 
 
-def table(run):
+def table(run: xarray.Dataset) -> pandas.DataFrame:
     """A DataFrame of what a record has over time alone: outputs, not profiles. Attributes are kept in its `attrs`."""
-    _library("pandas")
+    library("pandas")
     flat = _checked(run, "table").drop_dims([name for name in run.sizes if name != "time"])
     frame = flat.to_dataframe()
     frame.attrs = {"run": dict(run.attrs), "variables": {name: dict(run[name].attrs) for name in (*flat.data_vars, "time")}}
     return frame
 
 
-def celsius(record):
+def celsius(record: Record) -> Record:
     """A Dataset or DataArray with temperatures in °C in the place of K."""
 
     def shown(values):
@@ -163,10 +226,10 @@ def celsius(record):
     return shown(record)
 
 
-def save(run, path):
+def save(run: xarray.Dataset, path: str | Path) -> Path:
     """Writes a record: all of it as NetCDF (`.nc`), or what `table` gives of it as Parquet (`.parquet`)."""
     path, _ = _kind_of_file(path), _checked(run, "save")
-    _library("h5netcdf" if path.suffix == ".nc" else "pyarrow")
+    library("h5netcdf" if path.suffix == ".nc" else "pyarrow")
     made = BytesIO()
     # In memory: a file that HDF5 cannot finish takes Python down with it.
     if path.suffix == ".nc":
@@ -177,18 +240,18 @@ def save(run, path):
     return path
 
 
-def load(path):
+def load(path: str | Path) -> xarray.Dataset:
     """Reads what `save` has written: a Dataset with all attributes."""
     path = _kind_of_file(path)
     if not path.is_file():
         raise FileNotFoundError(f"{path} does not exist")
-    xarray = _library("xarray")
+    xarray = library("xarray")
     try:
         if path.suffix == ".nc":
-            _library("h5netcdf")
+            library("h5netcdf")
             return xarray.load_dataset(path, engine="h5netcdf", decode_timedelta=False)
-        _library("pyarrow")
-        frame = _library("pandas").read_parquet(path, engine="pyarrow")
+        library("pyarrow")
+        frame = library("pandas").read_parquet(path, engine="pyarrow")
     except (OSError, ValueError) as failure:
         raise ValueError(f"{path} is no {path.suffix[1:]} file that can be read: {_first_line(failure)}") from failure
     if "variables" not in frame.attrs or frame.index.name != "time":
@@ -210,7 +273,7 @@ def _kind_of_file(path):
 
 def _checked(run, call):
     """A record, as `simulate` and `Recorder.dataset` give it."""
-    if not isinstance(run, _library("xarray").Dataset) or "time" not in run.sizes:
+    if not isinstance(run, library("xarray").Dataset) or "time" not in run.sizes:
         expected = "expected the Dataset of a run, of simulate() or of a recorder's dataset()"
         raise ValueError(f"{call}({type(run).__name__}): {expected}")
     return run
@@ -221,7 +284,7 @@ def _first_line(failure):
     return (str(failure).splitlines() or [type(failure).__name__])[0]
 
 
-def _library(name):
+def library(name: str) -> ModuleType:
     """A library of the extras, or in one line what is missing."""
     try:
         return importlib.import_module(name)
@@ -230,7 +293,7 @@ def _library(name):
         raise ImportError(f"records need {name}, which is not installed: pip install wheelrail[{extra}]") from failure
 
 
-def _chosen(wheel, outputs, profiles, depth):
+def _chosen(wheel, outputs, profiles, depth, patch=False):
     """Scalar variables, and the points of profiles and lines by name, of which a record is asked for."""
     fmu, several = wheel.fmu, wheel.lines() > 1
     arrays = [f"profile.{quantity}" for quantity in fmu.profiles()] + fmu.of_lines()
@@ -242,6 +305,9 @@ def _chosen(wheel, outputs, profiles, depth):
     wanted |= {f"profile.{q}" for q in _quantities(fmu, depth, "depth", lambda name: name in BELOW)}
     if outputs is None and several:
         wanted |= set(fmu.of_lines())
+    if patch:
+        wanted |= set(PLACED)
+        names.setdefault("contact.width", fmu.variable("contact.width"))
     for pattern in outputs or ():
         if not isinstance(pattern, str):
             raise ValueError(f"{short(pattern)} is not the name of a variable or a pattern such as 'contact.*'")
@@ -314,39 +380,3 @@ def _values(variable, values):
     if variable.type == "Enumeration":
         return np.array([item.name for item in variable.declaredType.items])[values - 1]
     return values
-
-
-def _settings(wheel):
-    """Version, preset and the parameters that differ from it, choices by name."""
-    fmu = wheel.fmu
-    parameters = [v for v in fmu.variables.values() if v.causality == "parameter"]
-    values = {v.name: wheel.get(v.name) for v in parameters}
-    preset = values.pop("preset", "")
-    base = {v.name: _start(v) for v in parameters} | _preset(fmu, preset)
-    # The package itself writes the first of these, so that everything counts that is written.
-    base["initial.given"] = "written"
-    named = {v.name: _choice(v, values[v.name]) for v in parameters if v.name in values}
-    differ = {name: value for name, value in named.items() if value != base.get(name)}
-    return {"fmu_version": fmu.description.version or "", "preset": preset, "parameters": differ}
-
-
-def _choice(variable, value):
-    """The name of a choice; any other value itself."""
-    return variable.declaredType.items[int(value) - 1].name if variable.type == "Enumeration" else value
-
-
-def _start(variable):
-    """The start value of a parameter, which the description has as text."""
-    text = variable.start
-    if text is None or variable.type == "String":
-        return text
-    if variable.type == "Boolean":
-        return text == "true"
-    return float(text) if variable.type == "Real" else _choice(variable, text) if variable.type == "Enumeration" else int(text)
-
-
-def _preset(fmu, preset):
-    """What a preset sets besides the start values."""
-    path = Path(fmu.directory, "resources", f"{preset}.json")
-    groups = json.loads(path.read_text()) if path.is_file() else {}
-    return {f"{group}.{name}": value for group, values in groups.items() for name, value in values.items()}

@@ -1,40 +1,53 @@
 """A whole run in one call: parameters, inputs over time, communication steps, and the record of it."""
 
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from math import ceil, isfinite
 from numbers import Real
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING
 
 from .courses import HEIGHT, RATE, courses_of, parts
 from .fmu import Fmu, Wheel
 from .values import check_names, short
 from .warn import warn
 
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+log = logging.getLogger(__name__)
 ROUNDING = 1e-6  # difference of times, in steps, that is rounding only
 BAR = "{desc}: {percentage:3.0f} % |{bar}| {n:.4g} of {total:.4g} s [{elapsed}<{remaining}]"
 
 
 def simulate(
-    parameters=None,
-    inputs=None,
+    parameters: Mapping[str, object] | None = None,
+    inputs: Mapping[str, object] | pandas.DataFrame | None = None,
     *,
-    stop=None,
-    step=1e-3,
-    outputs=None,
-    profiles=False,
-    depth=False,
-    every=1,
-    fmu=None,
-    progress=True,
-    title="",
-):
+    stop: float | None = None,
+    step: float = 1e-3,
+    outputs: str | Iterable[str] | None = None,
+    profiles: bool | str | Iterable[str] = False,
+    depth: bool | str | Iterable[str] = False,
+    patch: bool = False,
+    every: int = 1,
+    fmu: Fmu | str | Path | None = None,
+    progress: bool = True,
+    title: str = "",
+) -> xarray.Dataset:
     """The record of a run from 0 to `stop` in communication steps of `step`, both in seconds: an xarray Dataset.
 
     `inputs` are by name constants, functions of the time, or samples over time [s] in any of the forms of `samples`: a dict, pairs,
     a pandas Series. Between samples they are linear, choices hold. Two samples at one time make a jump, at that time whatever
     the step is; what varies within a step acts with its mean (`courses`). A DataFrame has a column for every input, over its
     index or its column `time`, as a scenario of the command line.
-    Without `stop` the run ends with the last of these times, or at 1 s. `outputs`, `profiles`, `depth` and `every` say
-    what is recorded, see `records.Recorder`. `fmu` is an opened `Fmu`, the path of one, or `default_path()`.
+    Without `stop` the run ends with the last of these times, or at 1 s. `outputs`, `profiles`, `depth`, `patch` and `every`
+    say what is recorded, see `records.Recorder`. `fmu` is an opened `Fmu`, the path of one, or `default_path()`.
 
     What stops a run carries the record so far as its attribute `run`. The bar of the `progress` shows on a terminal only.
     """
@@ -53,13 +66,17 @@ def simulate(
                 warn(text)
         wheel = stack.enter_context(Wheel(fmu, parameters, {name: course.at(0.0) for name, course in courses.items()}))
         names = [outputs] if isinstance(outputs, str) else outputs or ()
-        recorder = wheel.record(*names, profiles=profiles, depth=depth, every=every, title=title)
+        recorder = wheel.record(*names, profiles=profiles, depth=depth, every=every, title=title, patch=patch)
+        log.info("run of %g s in steps of %g s", stop, step)
+        began = perf_counter()
         try:
             _advance(wheel, courses, stop, step, progress)
         except BaseException as failure:
             failure.run = recorder.dataset()
             failure.add_note(f"ended at {wheel.time:g} of {stop:g} s; the attribute `run` of this exception is its record")
+            log.error("run ended at %g of %g s: %s", wheel.time, stop, failure)
             raise
+        log.info("run of %g s done in %.3g s", stop, perf_counter() - began)
         recorder.sample()
         return recorder.dataset()
 

@@ -10,12 +10,13 @@ from types import SimpleNamespace
 import numpy as np
 
 from .controllers import Driving, Protection, Sanding
-from .files import BadFile, Named, Real, Swept, doubt_of, meant, number, read_csv, read_json
+from .files import BadFile, Named, Setting, Swept, doubt_of, meant, number, read_csv, read_json
 from .own import find
 from .rail_map import RailLaw, RailMap
 from .reach import check_gap, check_reach
 from .schemas import BRAKE, PROFILE, SCENARIO, SECTIONS, TRACK, VEHICLE
 from .smooth import Spline
+from .values import Refused, to_fmu
 from .warn import warn
 
 MOST_CELLS = 5e6  # of the map of the rail, which keeps values of every axle for each of them
@@ -30,6 +31,8 @@ def field_of(path):
     """The field of a dotted path, such as `speed`, `vehicle.body.mass` or `wheel.friction.falling_ratio`; a text about what is
     wrong with it, if there is none."""
     names, schema = SHORT.get(path, path).split("."), {k: v for k, v in SCENARIO.items() if k not in ("name", "sweep")}
+    if names[:2] == ["track", "sections"] and len(names) > 2:
+        return _of_section(names[2:])
     for k, name in enumerate(names):
         rest = names[k + 1 :]
         if isinstance(schema, Named):  # names are free; those of numbers may have dots
@@ -46,6 +49,16 @@ def field_of(path):
         below = [other for other in paths() if other.startswith(f"{path}.")]
         return f"is no value but a group{meant(path, below) if below else ''}"
     return schema
+
+
+def _of_section(names):
+    """The field of a value of a section, `2.slope` or `all.temperature`; a text about what is wrong with it."""
+    which, column = (*names, "")[:2]
+    if len(names) != 2 or not (which == "all" or which.isdigit() and int(which) > 0):
+        return "is no value of a section; write track.sections, the number of the section from 1 or all, and the column"
+    if column not in SECTIONS:
+        return f"is no column of the sections{meant(column, SECTIONS)}; they have {', '.join(SECTIONS)}"
+    return SECTIONS[column]
 
 
 def paths():
@@ -65,7 +78,7 @@ def paths():
 # Last, since it knows all the others.
 SCENARIO["sweep"] = Swept(
     field_of, "lists of values by key: of this file, or of another one, such as vehicle.body.mass",
-    {"wheel": Named(Real(-1e12, 1e12, "", "value"), "parameters of the FMU in a sweep, before those of wheel", {})},
+    {"wheel": Named(Setting(-1e12, 1e12, "value"), "parameters of the FMU in a sweep, before those of wheel", {})},
     ("speed", "adhesion", "payload", "slide_high"),
 )  # fmt: skip
 SCHEMAS = {"scenario": SCENARIO, **PARTS}
@@ -161,6 +174,8 @@ def _put(scenario, path, value):
     path, value = SHORT.get(path, path), number(value, field)
     if path in PARTS:
         return _read_part(scenario, path, value)
+    if path.startswith("track.sections."):
+        return _put_in_sections(scenario.track, path, value)
     if path in ("track.sections", "track.profile"):
         return {"track.sections": _read_sections, "track.profile": _read_profile}[path](scenario, value)
     if path in OWN and value:
@@ -176,6 +191,21 @@ def _put(scenario, path, value):
         place[".".join(names)] = value
     else:
         setattr(place, names[0], value)
+
+
+def _put_in_sections(track, path, value):
+    """Puts a value into one section, by its number from 1, or into all."""
+    which, column = path.split(".")[2:]
+    values, count = getattr(track.sections, column), len(track.sections.position)
+    if which != "all" and int(which) > count:
+        raise BadFile(f"{path}: the track has {count} sections, the last one {count}")
+    if column == "condition" and value not in track.conditions:
+        raise BadFile(f"{path} = {value!r} is none of {', '.join(track.conditions)}")
+    for k in range(count) if which == "all" else (int(which) - 1,):
+        values[k] = value
+    positions = track.sections.position
+    if any(b <= a for a, b in zip(positions, positions[1:])):
+        raise BadFile(f"{path} = {value:g} m: positions of the sections must ascend")
 
 
 def settle(scenario):
@@ -212,13 +242,19 @@ def check(scenario):
 
 
 def check_wheel(scenario, known):
-    """The parameters of the wheels, those that are swept too, are among those that are `known`."""
-    swept = [key.removeprefix("wheel.") for key in vars(scenario.sweep) if key.startswith("wheel.")]
-    for name in [*scenario.wheel, *scenario.sweep.wheel, *swept]:
+    """The parameters of the wheels, those that are swept too, are among those that are `known`, variables by name, and have values of
+    their types."""
+    swept = [(key.removeprefix("wheel."), value) for key, values in vars(scenario.sweep).items() if key.startswith("wheel.") for value in values]
+    given = [*scenario.wheel.items(), *scenario.temperatures.items(), *scenario.sweep.wheel.items(), *swept]
+    for name, value in given:
         if name not in known:
             close = difflib.get_close_matches(name, known, n=1)
             hint = "".join(f"; did you mean {other}?" for other in close)
             raise BadFile(f"{scenario.paths['scenario']}: wheel: {name} is no parameter of the FMU{hint}")
+        try:
+            to_fmu(known[name], value)
+        except Refused as error:
+            raise BadFile(f"{scenario.paths['scenario']}: wheel: {error}") from None
 
 
 def _beyond(row, before):

@@ -1,6 +1,6 @@
 """What the files of a stop may say: names, ranges, units, defaults, and usual sizes."""
 
-from .files import Flag, Named, Real, Several, Text
+from .files import Flag, Named, Real, Setting, Several, Text
 
 # Units in which values are often written: name, factor, and what is added.
 PERCENT, MILLIMETRES, TONNES = (("%", 0.01, 0.0),), (("mm", 1e-3, 0.0),), (("t", 1e3, 0.0),)
@@ -162,7 +162,15 @@ SCENARIO = {
     "hold": Real(0, 60, "s", "watched after standstill", 2.0),
     "longest": Real(0.01, 3600, "s", "a stop may take", 240.0),
     "dry": Real(1e-3, 1, "1", "friction of the dry stop that the others are compared with", 0.3, others=PERCENT),
-    "wheel": Named(Real(-1e12, 1e12, "", "value"), "parameters of the FMU, of one wheel", {}),
+    "wheel": Named(
+        Setting(-1e12, 1e12, "value: a number, the name of a choice, preset or profile, true or false"),
+        "parameters of the FMU, of one wheel: preset, contact.shape and the like among them", {},
+    ),
+    "temperatures": Named(
+        Setting(-1e12, 1e12, "value, as of wheel"),
+        "parameters of one more wheel beside every wheelset, which moves as that one does and gives its temperatures and damage: "
+        "a patch beside a line; none if empty", {},
+    ),
     "driver": Text("driver of one's own, module:Class; a constant demand if empty", ""),
     "driver_parameters": Named(Real(-1e12, 1e12, "", "value"), "numbers that its class is made with, by name", {}),
 }

@@ -1,8 +1,14 @@
-"""What a sampled result says: distribution, exceedance, amplitudes against frequency, one-third octaves."""
+"""What a sampled result says: distribution, exceedance, amplitudes against frequency, one-third octaves.
+
+A signal is two arrays of the same shape (n,): positions, ascending, in seconds or metres, and values in a unit of their own.
+"""
+
+from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 # Coefficients of windows, sum of a_k (-1)^k cos(2 pi k n/N). The flat top (D'Antona and Ferrero, Digital Signal
 # Processing for Measurement Systems, 2006) returns the amplitude of a sine wherever it lies between two lines.
@@ -19,8 +25,8 @@ class BadSignal(Exception):
     """A signal that cannot be analysed; the text says what is wrong, where, and what to do."""
 
 
-def checked(positions, values):
-    """Both as arrays of finite numbers, positions ascending."""
+def checked(positions: ArrayLike, values: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """Both as arrays (n,) of finite numbers, positions ascending."""
     positions, values = np.asarray(positions, float), np.asarray(values, float)
     if positions.shape != values.shape or positions.ndim != 1 or len(positions) < 2:
         raise BadSignal(f"{positions.shape} positions and {values.shape} values: two columns of 2 or more rows are needed")
@@ -34,8 +40,8 @@ def checked(positions, values):
     return positions, values
 
 
-def spacing(positions):
-    """Distance of samples, which must be equal."""
+def spacing(positions: np.ndarray) -> float:
+    """Distance of samples (n,), which must be equal, in the unit of the positions."""
     step = (positions[-1] - positions[0]) / (len(positions) - 1)
     worst = int(np.argmax(np.abs(np.diff(positions) / step - 1.0)))
     # Positions written with few digits deviate by their rounding.
@@ -47,8 +53,8 @@ def spacing(positions):
     return step
 
 
-def resampled(positions, values, step):
-    """The signal at equal distances, straight between samples."""
+def resampled(positions: ArrayLike, values: ArrayLike, step: float) -> tuple[np.ndarray, np.ndarray]:
+    """The signal at equal distances of `step`, straight between samples: positions and values, both (m,)."""
     positions, values = checked(positions, values)
     length = positions[-1] - positions[0]
     if not length / MOST_SAMPLES <= step <= length * (1.0 + 1e-12):
@@ -58,8 +64,8 @@ def resampled(positions, values, step):
     return even, np.interp(even, positions, values)
 
 
-def durations(time):
-    """How long each sample stands for: half of the way to its neighbours."""
+def durations(time: np.ndarray) -> np.ndarray:
+    """How long each sample stands for: half of the way to its neighbours, (n,) in the unit of the times."""
     steps = np.diff(time)
     return 0.5 * (np.append(steps, 0.0) + np.insert(steps, 0, 0.0))
 
@@ -77,7 +83,7 @@ class Statistics:
     at_zero: float
 
 
-def statistics(time, values):
+def statistics(time: ArrayLike, values: ArrayLike) -> Statistics:
     """`Statistics`, every sample weighed by its duration; kurtosis is 3 for normal deviates."""
     time, values = checked(time, values)
     share = durations(time) / (time[-1] - time[0])
@@ -89,8 +95,9 @@ def statistics(time, values):
     return Statistics(mean, deviation, shape(3), shape(4), float(values.min()), float(values.max()), zero)
 
 
-def density(time, values, classes=60, limits=None):
-    """Probability density over time: edges of equal classes and the density [1/unit] in each; its integral is one.
+def density(time: ArrayLike, values: ArrayLike, classes: int = 60, limits: tuple[float, float] | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Probability density over time: edges (classes + 1,) of equal classes and the density (classes,) [1/unit] in each; its integral is
+    one.
 
     `limits` of the classes default to the extremes; what lies outside is left out of the classes, not of the whole.
     """
@@ -102,24 +109,24 @@ def density(time, values, classes=60, limits=None):
     return edges, time_in / np.diff(edges) / (time[-1] - time[0])
 
 
-def exceedance(time, values):
-    """Levels, ascending, and the share of time in which the signal is above each."""
+def exceedance(time: ArrayLike, values: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """Levels (n,), ascending, and the share (n,) of time in which the signal is above each [1]."""
     time, values = checked(time, values)
     order = np.argsort(values, kind="stable")
     share = durations(time)[order] / (time[-1] - time[0])
     return values[order], np.clip(1.0 - np.cumsum(share), 0.0, 1.0)
 
 
-def window(name, count):
-    """Values of a window."""
+def window(name: str, count: int) -> np.ndarray:
+    """Values of a window of `count` samples, (count,)."""
     if name not in WINDOWS:
         raise BadSignal(f"window = {name!r} is none of {', '.join(WINDOWS)}")
     turn = 2.0 * np.pi * np.arange(count) / count
     return sum((-1.0) ** k * a * np.cos(k * turn) for k, a in enumerate(WINDOWS[name]))
 
 
-def amplitudes(positions, values, taper="flattop"):
-    """Amplitude of the sinusoids in a signal against frequency [1/unit of positions], without its mean."""
+def amplitudes(positions: ArrayLike, values: ArrayLike, taper: str = "flattop") -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies (n // 2 + 1,) [1/unit of positions] and amplitudes of the sinusoids in a signal, in its unit, without its mean."""
     positions, values = checked(positions, values)
     step, shape = spacing(positions), window(taper, len(values))
     lines = np.abs(np.fft.rfft((values - np.mean(values)) * shape)) * 2.0 / shape.sum()
@@ -129,8 +136,8 @@ def amplitudes(positions, values, taper="flattop"):
     return np.fft.rfftfreq(len(values), step), lines
 
 
-def harmonic(positions, values, frequency):
-    """Amplitude and phase [rad] of `A cos(2 pi f x + phase)` of a known frequency, by least squares beside a straight line."""
+def harmonic(positions: ArrayLike, values: ArrayLike, frequency: float) -> tuple[float, float]:
+    """Amplitude, in the unit of the values, and phase [rad] of `A cos(2 pi f x + phase)` of a known frequency, by least squares beside a straight line."""
     positions, values = checked(positions, values)
     x = positions - positions[0]
     terms = [np.cos(2 * np.pi * frequency * positions), -np.sin(2 * np.pi * frequency * positions), np.ones_like(x), x]
@@ -138,7 +145,7 @@ def harmonic(positions, values, frequency):
     return float(np.hypot(real, imaginary)), float(np.arctan2(imaginary, real))
 
 
-def octaves(positions, values, reference=1.0, taper="hann"):
+def octaves(positions: ArrayLike, values: ArrayLike, reference: float = 1.0, taper: str = "hann") -> tuple[np.ndarray, np.ndarray]:
     """Levels in one-third octaves (IEC 61260-1, base ten): mid-band frequencies and 20 lg(rms/reference) [dB].
 
     A line at the border of two bands is shared between them. Bands of less than two lines and bands beyond half the
@@ -164,8 +171,9 @@ def octaves(positions, values, reference=1.0, taper="hann"):
         return 10.0 ** (0.1 * numbers[kept]), 10.0 * np.log10(total / reference**2)
 
 
-def of_turns(time, omega, velocity, force):
-    """Turn by turn of a wheel: mean speed of travel [m/s], largest and smallest force and share of time without it."""
+def of_turns(time: ArrayLike, omega: ArrayLike, velocity: ArrayLike, force: ArrayLike) -> np.ndarray:
+    """Turn by turn of a wheel, an array (turns, 4): mean speed of travel [m/s], largest and smallest force [N], and share of time without
+    it [1]. All arguments are (n,): time [s], omega [rad/s], velocity [m/s], force [N]."""
     time, omega = checked(time, omega)
     velocity, force = checked(time, velocity)[1], checked(time, force)[1]
     angle = np.append(0.0, np.cumsum(0.5 * (omega[1:] + omega[:-1]) * np.diff(time)))

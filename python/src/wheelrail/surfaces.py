@@ -1,6 +1,12 @@
-"""Closed forms for irregular surfaces: contact filter, corrugation, flats, kinks. SI units, forces of the whole wheel."""
+"""Closed forms for irregular surfaces: contact filter, corrugation, flats, kinks. SI units, forces of the whole wheel.
+
+Arguments that may be arrays give arrays of their shape.
+"""
+
+from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 # Contact filter of CNOSSOS-EU for 100 kN and a wheel of 920 mm: wavelength [m] and level [dB]. Directive (EU) 2015/996
 # as amended by (EU) 2021/1226, Table G-2.
@@ -21,7 +27,7 @@ EN_ISO_3095 = dict(
 )
 
 
-def bessel_j0(x):
+def bessel_j0(x: ArrayLike) -> np.ndarray:
     """Bessel function J0: the mean of cos(x sin t) over a turn, with so many points that it is exact to rounding."""
     x = np.abs(np.asarray(x, float))
     count = 2 * int(np.max(x, initial=0.0)) + 64
@@ -29,18 +35,18 @@ def bessel_j0(x):
     return np.cos(x[..., None] * np.sin(turn)).mean(axis=-1)
 
 
-def contact_filter(half_width, wavelength):
-    """Share of a sinusoid that a Hertzian line contact of this half-width feels, of first order: J0(2 pi a/lambda)."""
+def contact_filter(half_width: float, wavelength: ArrayLike) -> np.ndarray:
+    """Share [1] of a sinusoid of a wavelength [m] that a Hertzian line contact of this half-width [m] feels, of first order: J0(2 pi a/lambda)."""
     return bessel_j0(2.0 * np.pi * half_width / np.asarray(wavelength, float))
 
 
-def contact_filter_level(half_width, wavelength):
-    """The same as level [dB]."""
+def contact_filter_level(half_width: float, wavelength: ArrayLike) -> np.ndarray:
+    """Level [dB] of `contact_filter`, arguments in metres."""
     with np.errstate(divide="ignore"):
         return 20.0 * np.log10(np.abs(contact_filter(half_width, wavelength)))
 
 
-def cnossos_filter(wavelength):
+def cnossos_filter(wavelength: ArrayLike) -> np.ndarray:
     """Contact filter of CNOSSOS-EU [dB], between the entries of its table by the logarithm of the wavelength."""
     lengths, levels = np.array(CNOSSOS[::-1]).T
     wavelength = np.asarray(wavelength, float)
@@ -48,9 +54,18 @@ def cnossos_filter(wavelength):
     return np.where(inside, np.interp(np.log(wavelength), np.log(lengths), levels), np.nan)
 
 
-def corrugation_force(speed, amplitude, wavelength, half_width, stiffness, mass, retardation=0.0):
+def corrugation_force(
+    speed: ArrayLike,
+    amplitude: float,
+    wavelength: float,
+    half_width: float,
+    stiffness: float,
+    mass: float,
+    retardation: float = 0.0,
+) -> np.ndarray:
     """Amplitude of the force [N] of a mass that rolls on its contact spring over a sinusoid.
 
+    `speed` [m/s], `amplitude` [m], `wavelength` [m], `half_width` [m], `stiffness` K [N/m], `mass` m [kg], `retardation` [s]:
     `A J0 |K* m w2/(K* - m w2)|` with `K* = K (1 + i w retardation)`: first order in the amplitude, rail on a fixed base.
     """
     omega = 2.0 * np.pi * np.asarray(speed, float) / wavelength
@@ -58,16 +73,16 @@ def corrugation_force(speed, amplitude, wavelength, half_width, stiffness, mass,
     return amplitude * np.abs(contact_filter(half_width, wavelength) * spring * inertia / (spring - inertia))
 
 
-def flat_depth(length, radius, shape="fresh"):
-    """Depth [m] of a wheel flat: of the chord `r (1 - cos)`, close to L2/8r, or of a rounded one, L2/16r."""
+def flat_depth(length: ArrayLike, radius: float, shape: str = "fresh") -> np.ndarray:
+    """Depth [m] of a wheel flat of a length [m] on a radius [m]: of the chord `r (1 - cos)`, close to L2/8r, or of a rounded one, L2/16r."""
     if shape not in ("fresh", "rounded"):
         raise ValueError(f"shape = {shape!r} is neither fresh nor rounded")
     fresh = radius * (1.0 - np.sqrt(1.0 - (0.5 * np.asarray(length) / radius) ** 2))
     return fresh if shape == "fresh" else np.asarray(length) ** 2 / (16.0 * radius)
 
 
-def kink_force(speed, angle, stiffness, mass):
-    """Additional force [N] at a kink of the path: `v angle sqrt(K m)`, a mass on its contact spring that changes direction.
+def kink_force(speed: ArrayLike, angle: float, stiffness: float, mass: float) -> np.ndarray:
+    """Additional force [N] at a kink of the path, at a speed [m/s], with an angle [rad], a stiffness [N/m] and a mass [kg]: `v angle sqrt(K m)`, a mass on its contact spring that changes direction.
 
     The P1 force of a dipped joint on a rigid track (Jenkins 1974) with the angle between both ends; of a wheel that follows a
     fresh flat of length L, with the angle L/r.

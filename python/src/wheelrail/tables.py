@@ -5,7 +5,10 @@ byte order and any ending of lines are taken, cells may stand in quotes. Everyth
 command line and profiles of rails and wheels read their files by the same rules.
 """
 
+from __future__ import annotations
+
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
@@ -16,7 +19,7 @@ class BadFile(Exception):
     """A file that cannot be used; the text names file, line, name and range."""
 
 
-def text_of(path):
+def text_of(path: str | Path) -> str:
     """Text of a regular file."""
     path = Path(path)
     if path.is_fifo() or path.is_char_device():
@@ -29,7 +32,7 @@ def text_of(path):
         raise BadFile(f"{path}: cannot be read: no text in UTF-8, such as JSON or CSV: {error}") from None
 
 
-def read_table(path):
+def read_table(path: str | Path) -> tuple[list[str], int, Iterator[tuple[int, list[str]]]]:
     """Names of the columns, the line in which they stand, and rows as pairs of line and cells, lazily."""
     lines = enumerate(text_of(path).split("\n"), start=1)  # Python reads any ending of lines as this one
     lines = [(line, text.strip()) for line, text in lines]
@@ -77,7 +80,7 @@ def _cells(path, line, text):
     return [bare(cell.strip()) for cell in cells]
 
 
-def number_in(path, line, name, cell):
+def number_in(path: str | Path, line: int, name: str, cell: str) -> float:
     """The number in a cell."""
     if NUMBER.fullmatch(cell):
         return float(cell)

@@ -1,12 +1,17 @@
 """Threads that share the wheels of a step."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
 from os import cpu_count
 from queue import SimpleQueue
 from threading import Thread
 from time import perf_counter
+from typing import Self, TypeVar
 from weakref import finalize
 from zlib import crc32
 
+Item, Result = TypeVar("Item"), TypeVar("Result")
 PATIENCE = 200e-6  # s
 PASTIME = bytes(32768)  # its checksum takes some 10 µs, in which the lock of the interpreter is free
 
@@ -19,7 +24,7 @@ class Team:
     has a fixed share for which all would wait. Use as a context manager, or call `close`.
     """
 
-    def __init__(self, threads=None, patience=PATIENCE):
+    def __init__(self, threads: int | None = None, patience: float = PATIENCE) -> None:
         """So many `threads`, with the calling one; by itself as many as the machine has. They stay awake for `patience` (s) when there is
         nothing to do: 0 where other processes need the cores, or where more time than that lies between steps."""
         self._orders, self._patience = SimpleQueue(), patience
@@ -29,13 +34,13 @@ class Team:
         for member in self._members:
             member.start()
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def map(self, function, items):
+    def map(self, function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
         """Results of `function` for all items, in their order. A failure is raised when all are done: an interrupt before others, else that of
         the first item that failed."""
         order = _Order(function, items)
@@ -43,7 +48,7 @@ class Team:
             self._orders.put(order)
         return order.finish(self._patience)
 
-    def close(self):
+    def close(self) -> None:
         """Ends the threads."""
         self._dismiss()
         for member in self._members:

@@ -12,18 +12,26 @@ The wheelsets own their inertia (force and moment control); a step of `h` goes l
 5. Rail: energy, heat and sand of the step are left on the map for the axles behind.
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import scenario as scenarios
 from .brake import Brakes
 from .controllers import OwnDriver
+from .fmu import Fmu
 from .own import fresh_modules
-from .rail_map import OffTheMap
+from .rail_map import OffTheMap, RailMap
 from .team import Team
 from .values import Refused
 from .vehicle import AXLES, GRAVITY, Coach
 from .warn import Once, collected
-from .wheelset import Drive, FmuWheelset, FrictionLaw, RigidWheelset, runs_straight
+from .wheelset import Drive, FmuWheelset, FrictionLaw, RigidWheelset, Seen, runs_straight
 
 ROLLING = 0.01  # slide below which a wheelset counts as rolling in the prediction
 STANDING = 0.02  # m/s, of a wheelset that does not turn: slower, or so slow that friction stops it soon, the rail holds it
@@ -61,7 +69,7 @@ OF_AXLE = {
 COUPLER = ("N", "force of the coupler behind this coach, tension positive")
 
 
-def columns(coaches=1):
+def columns(coaches: int = 1) -> list[str]:
     """Names of all columns: of the vehicle, of every axle, and the force of every coupler, tension positive."""
     axles = [f"{name}_{axle + 1}" for axle in range(coaches * AXLES) for name in OF_AXLE]
     return [*OF_VEHICLE, *axles, *(f"coupler_{k + 1}" for k in range(coaches - 1))]
@@ -74,7 +82,13 @@ class TrackEnds(Exception):
 class Contacts:
     """Wheelsets and the rail they share."""
 
-    def __init__(self, wheelsets, positions, rail, track):
+    def __init__(
+        self,
+        wheelsets: Sequence[FmuWheelset | RigidWheelset],
+        positions: ArrayLike,
+        rail: RailMap,
+        track: SimpleNamespace,
+    ) -> None:
         self.wheelsets, self.positions, self.rail, self.track = wheelsets, positions, rail, track
         self.time, self.curve = 0.0, scenarios.heights(track)
         self.places = np.array(positions, float)
@@ -85,7 +99,15 @@ class Contacts:
         # the cores meanwhile.
         self.team = Team(None if any(isinstance(wheelset, FmuWheelset) for wheelset in wheelsets) else 1, patience=0.0)
 
-    def step(self, h, forces, loads, torques, sand, lifted):
+    def step(
+        self,
+        h: float,
+        forces: np.ndarray,
+        loads: np.ndarray,
+        torques: np.ndarray,
+        sand: Sequence[float],
+        lifted: np.ndarray,
+    ) -> list[Seen]:
         """Steps all wheelsets; forces, loads and torques are pairs (beginning, end) of one value per axle, `lifted` is height
         and rate of the rail below each at the end."""
         self.met = [self._rail(axle) for axle in range(len(self.wheelsets))]
@@ -108,11 +130,11 @@ class Contacts:
             finally:
                 self.told += [(axle, text) for text in texts]
 
-    def slope(self, axle):
+    def slope(self, axle: int) -> float:
         """Slope of the track below an axle."""
         return scenarios.slope(self.track, self.places[axle])
 
-    def lifted(self, h, speed):
+    def lifted(self, h: float, speed: float) -> np.ndarray:
         """Height [m] of the rail below the axles in `h` [s], and its rate [m/s]; `speed` [m/s] before the first step."""
         velocities = np.array([w.velocity for w in self.seen]) if self.seen else np.full(len(self.places), speed)
         return scenarios.elevation(self.curve, self.places + h * velocities, velocities)
@@ -133,14 +155,18 @@ class Contacts:
             self.rail.lay_sand(axle, start, end, sand)
         self.places[axle] = end
 
-    def close(self):
+    def close(self) -> None:
         """Frees wheelsets and threads."""
         self.team.close()
         for wheelset in self.wheelsets:
             wheelset.close()
 
 
-def wheelsets_of(fmu, scenario, coach):
+def wheelsets_of(
+    fmu: Fmu | None,
+    scenario: SimpleNamespace,
+    coach: Coach,
+) -> tuple[list[FmuWheelset | RigidWheelset], list[tuple[int, str]]]:
     """Wheelsets of all coaches from the front, and the warnings of their start: in the FMU, if there is one, where the scenario
     has them there; the others are rigid, with the friction law of the scenario's wheels and of the FMU, or refused if they do
     not know it."""
@@ -157,7 +183,8 @@ def wheelsets_of(fmu, scenario, coach):
             found.append(RigidWheelset(wheelset, scenario.speed, law=law))
             continue
         with collected() as texts:
-            found.append(FmuWheelset(fmu, wheelset, coach.static_load, scenario.speed, damping, dict(parameters)))
+            about = dict(parameters), scenario.temperatures
+            found.append(FmuWheelset(fmu, wheelset, coach.static_load, scenario.speed, damping, *about))
         told += [(axle, text) for text in texts]
     return found, told
 
@@ -170,7 +197,7 @@ class Stop:
     `contacts.seen` (one `Seen` per axle) say how things are.
     """
 
-    def __init__(self, scenario, fmu=None, dry=None, coach=None):
+    def __init__(self, scenario: SimpleNamespace, fmu: Fmu | None = None, dry: float | None = None, coach: Any = None) -> None:
         self.scenario = scenario
         self.coach = coach or Coach(scenario.vehicle, scenario.coaches)
         self.axles = self.coach.axles
@@ -189,7 +216,7 @@ class Stop:
         self.contacts.told += told
         self._say()
 
-    def run(self, progress=lambda stop: None):
+    def run(self, progress: Callable[[Stop], None] = lambda stop: None) -> np.ndarray:
         """Brakes to rest, watches it for a while; returns the table of `columns()`."""
         s, rest = self.scenario, None
         while rest is None or self.contacts.time < rest + s.hold:
@@ -209,11 +236,11 @@ class Stop:
         weak = f"; the brake slows it by {slows:.2g} m/s2 at most: is torque = {brake.torque:g} N m in {self.scenario.paths['brake']} meant?"
         return weak if slows < WEAK else ""
 
-    def at_rest(self):
+    def at_rest(self) -> bool:
         """Whether the coach has stopped."""
         return self.coach.speed() < AT_REST
 
-    def step(self, h):
+    def step(self, h: float) -> None:
         """One step of all parts, of `h` [s]."""
         try:
             self._step(h)
@@ -265,7 +292,7 @@ class Stop:
             sand += of[1]
         return torques, sand
 
-    def row(self, pulls):
+    def row(self, pulls: np.ndarray) -> list[float]:
         """Values of `columns()` now: pressure and reference speed are those of the leading coach, air and sand of all."""
         leading, contacts = self.brakes[0], self.contacts
         row = [contacts.time, self.coach.speed(), self.coach.travelled(), leading.distributor.pressure]
@@ -277,12 +304,18 @@ class Stop:
             row += [w.hottest, w.peak, w.ac1_depth]
         return [*row, *self.coach.coupler_forces()]
 
-    def close(self):
+    def close(self) -> None:
         """Frees the wheelsets."""
         self.contacts.close()
 
 
-def predicted(h, wheelset, seen, pulls, others):
+def predicted(
+    h: float,
+    wheelset: SimpleNamespace,
+    seen: Sequence[Seen],
+    pulls: np.ndarray,
+    others: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
     """Masses [kg] of the wheelsets in the vehicle's step, and the forces [N] on them beside the suspension's."""
     masses, forces = np.full(len(seen), float(wheelset.mass)), np.array(others, float)
     for k, w in enumerate(seen):

@@ -1,7 +1,11 @@
 """Values of variables on their way to and from the FMU, and what is refused before it gets there."""
 
+from __future__ import annotations
+
 import os
 from numbers import Integral, Real
+
+from fmpy.model_description import ScalarVariable
 
 
 # What a value that is no number at all should have been.
@@ -12,25 +16,25 @@ class Refused(Exception):
     """A call that the FMU refused; the text is what it logged."""
 
 
-def kind(variable):
+def kind(variable: ScalarVariable) -> str:
     """The type by which a variable crosses the interface."""
     return "Integer" if variable.type == "Enumeration" else variable.type
 
 
-def plain(variable, value):
+def plain(variable: ScalarVariable, value: object) -> object:
     """A value as Python has it."""
     if variable.type == "String":
         return value.decode() if isinstance(value, bytes) else value
     return bool(value) if variable.type == "Boolean" else value
 
 
-def check_names(values, call):
+def check_names(values: object, call: str) -> None:
     """Refuses what maps no names to values."""
     if not hasattr(values, "items"):
         raise ValueError(f"{call}({short(values)}): expected names and values, such as {{'drive.load': 8e4}}")
 
 
-def to_fmu(variable, value):
+def to_fmu(variable: ScalarVariable, value: object) -> float | int | str:
     """A value as the variable wants it."""
     name, unit = variable.name, f" [{variable.unit}]" if variable.unit else ""
     if getattr(value, "shape", None) == ():
@@ -53,13 +57,13 @@ def to_fmu(variable, value):
     return int(value)
 
 
-def short(value):
+def short(value: object) -> str:
     """A value in not too many characters."""
     text = " ".join(repr(value).split())
     return text if len(text) < 60 else text[:57] + "..."
 
 
-def saved_state(saved):
+def saved_state(saved: object) -> tuple[object, float]:
     """State and time of what `save` gave."""
     if not (isinstance(saved, tuple) and len(saved) == 2):
         raise ValueError(f"{short(saved)} is not what save() returned")

@@ -14,9 +14,14 @@ A set has as many coordinates per coach, coach after coach from the front. Coupl
 spring and a damper along the track (draft gear without slack); the coordinates of each coach count from its own place.
 """
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 GRAVITY = 9.81  # m/s2
 AXLES = 4
@@ -38,26 +43,26 @@ class Link:
     stiffness: float  # N/m
     damping: float  # N s/m
 
-    def force(self, position, velocity):
+    def force(self, position: np.ndarray, velocity: np.ndarray) -> float:
         """On the point that counts positive in the row [N]."""
         return -self.stiffness * (self.row @ position) - self.damping * (self.row @ velocity)
 
 
-def along(body, height):
+def along(body: int, height: float) -> np.ndarray:
     """Row of the x displacement of a point of a pitching body, `height` [m] above its centre of gravity."""
     row = np.zeros(SIZE)
     row[body], row[body + 2] = 1.0, -height
     return row
 
 
-def upward(body, ahead):
+def upward(body: int, ahead: float) -> np.ndarray:
     """Row of the y displacement of a point of a pitching body, `ahead` [m] of its centre of gravity."""
     row = np.zeros(SIZE)
     row[body + 1], row[body + 2] = 1.0, ahead
     return row
 
 
-def wheelset(axle):
+def wheelset(axle: int) -> np.ndarray:
     """Row of the x displacement of a wheelset."""
     row = np.zeros(SIZE)
     row[9 + axle] = 1.0
@@ -67,7 +72,7 @@ def wheelset(axle):
 class Coach:
     """Equations of a coach, or of a set of `count` equal ones; `v` are the values of a vehicle file."""
 
-    def __init__(self, v, count=1):
+    def __init__(self, v: SimpleNamespace, count: int = 1) -> None:
         self.values, self.count, self.axles = v, count, count * AXLES
         self.body_mass = v.body.mass + v.body.payload
         inertia = v.body.pitch_inertia * self.body_mass / v.body.mass
@@ -127,22 +132,22 @@ class Coach:
             self.pull.append(link(row, p.longitudinal_stiffness, p.longitudinal_damping))
             self.lift.append(link(-upward(bogie, ahead), p.vertical_stiffness, p.vertical_damping))
 
-    def start(self, speed):
+    def start(self, speed: float) -> None:
         """All bodies move at a speed [m/s], springs as under their own weight."""
         self.position, self.velocity = np.zeros(self.count * SIZE), np.zeros(self.count * SIZE)
         self.origin = 0.0
         self.velocity[self.along] = speed
         self.lifted = np.zeros((2, self.axles))
 
-    def speed(self):
+    def speed(self) -> float:
         """Of the car body, the leading one of a set [m/s]."""
         return self.velocity[BODY]
 
-    def travelled(self):
+    def travelled(self) -> float:
         """Way of the car body, the leading one of a set, since the start [m]."""
         return self.origin + self.position[BODY]
 
-    def forces(self):
+    def forces(self) -> tuple[np.ndarray, np.ndarray]:
         """What the primary suspension does to each wheelset: along the track [N], and load on the rail [N]."""
         p = self.values.primary
         pulls = -p.longitudinal_stiffness * (self.pull_rows @ self.position)
@@ -152,11 +157,19 @@ class Coach:
         # The damper's share of a rail that lifts the wheelset is the wheelset's own (`vehicle.damping` of the FMU).
         return pulls, self.static_load - lifts + p.vertical_stiffness * self.lifted[0]
 
-    def coupler_forces(self):
+    def coupler_forces(self) -> np.ndarray:
         """Of the couplers from the front, tension positive [N]."""
         return np.array([-link.force(self.position, self.velocity) for link in self.couplers])
 
-    def advance(self, h, torques, slope, wheel_masses, wheel_forces, lifted=None):
+    def advance(
+        self,
+        h: float,
+        torques: ArrayLike,
+        slope: ArrayLike,
+        wheel_masses: ArrayLike,
+        wheel_forces: ArrayLike,
+        lifted: np.ndarray | None = None,
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Moves on by `h` [s] as if wheelsets were masses [kg] under the suspension and constant forces [N]; returns
         `forces()` then. `torques` [N m] are those of the brakes on the wheels, forward positive; `slope` that of the track, one
         or one per coach; `lifted` height [m] and its rate [m/s] of the rail below each wheelset at the end of the step."""
@@ -185,7 +198,7 @@ class Coach:
         carried = p.vertical_stiffness * lifted[0] + p.vertical_damping * lifted[1]
         return -carried @ self.lift_rows
 
-    def correct(self, positions, velocities):
+    def correct(self, positions: Sequence[float], velocities: Sequence[float]) -> None:
         """Wheelsets are where they are found [m, m/s]. Positions along the track count from the first of them: millimetres in place
         of kilometres, whose last digit times 63 MN/m would be felt."""
         self.position[self.along] -= positions[0] - self.origin
@@ -207,6 +220,6 @@ class Coach:
             f[place + LEADING + 2], f[place + TRAILING + 2] = of[0] + of[1], of[2] + of[3]
         return f
 
-    def energy(self):
+    def energy(self) -> float:
         """Kinetic and elastic energy without the wheelsets' rotation [J]."""
         return 0.5 * (self.masses @ self.velocity**2 + self.position @ self.K @ self.position)

@@ -1,12 +1,16 @@
 """Warnings of this package: each points to the line of the user's program that led to it."""
 
+from __future__ import annotations
+
 import re
 import sys
 import sysconfig
 import warnings
+from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
+from typing import TextIO
 
 PACKAGE = str(Path(__file__).resolve().parent)
 STANDARD = tuple({sysconfig.get_path(name) for name in ("stdlib", "platstdlib")})
@@ -19,7 +23,7 @@ class WheelrailWarning(UserWarning):
     """A doubt of the FMU or of this package about what it was given: the run goes on."""
 
 
-def warn(text):
+def warn(text: str) -> None:
     """Says a text as `WheelrailWarning` of the innermost line outside of this package, or hands it to who collects."""
     texts = _collecting.get()
     if texts is not None:
@@ -34,7 +38,7 @@ def warn(text):
 
 
 @contextmanager
-def collected():
+def collected() -> Iterator[list[str]]:
     """A list that gets the texts of the warnings of this thread meanwhile, in the place of being said."""
     texts = []
     token = _collecting.set(texts)
@@ -45,7 +49,7 @@ def collected():
 
 
 @contextmanager
-def in_lines(file=None):
+def in_lines(file: TextIO | None = None) -> Iterator[None]:
     """Warnings of this package are lines `warning: …` meanwhile, unless filters of Python make errors of them or silence them."""
     with warnings.catch_warnings():
         usual = warnings.showwarning
@@ -63,10 +67,10 @@ def in_lines(file=None):
 class Once:
     """Says each kind of text once: texts of a kind differ in their numbers."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.known = set()
 
-    def warn(self, text, of=""):
+    def warn(self, text: str, of: str = "") -> None:
         """Says a text, `of` something, unless one of its kind was said before."""
         kind = re.sub(r"[-+]?\d[\d.,]*(e[-+]?\d+)?", "#", text)
         if kind not in self.known:

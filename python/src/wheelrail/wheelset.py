@@ -4,11 +4,15 @@ Both own the wheelset's mass and inertia and are driven by what the suspension d
 a vehicle, a brake and a rail want to know (`Seen`). Forces are those of both wheels.
 """
 
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
 
-from .fmu import Refused, Wheel
+from .fmu import Fmu, Refused, Wheel
 from .warn import collected
 
 WHEELS = 2
@@ -48,37 +52,78 @@ OUTPUTS = (
 )  # fmt: skip
 
 
-class FmuWheelset:
-    """A whole wheelset as one instance: twice the width and the nominal load of one wheel."""
+# What the wheel beside a wheelset gives in the place of the wheelset's own.
+OF_HEAT = ("temperature.wheel_max", "damage.peak_temperature", "damage.ac1_depth")
 
-    def __init__(self, fmu, wheelset, load, speed, damping=0.0, parameters=None):
+
+class FmuWheelset:
+    """A wheelset as one instance: where the patch is a line of constant width, both wheels as one of twice the width and load; where it
+    has a width of its own, one wheel with half of everything, which stands for both. `wheels` says how many it is.
+
+    With `beside`, parameters of one wheel, a wheel more moves as this one does; temperatures and damage are its own then. It changes
+    nothing in the forces.
+    """
+
+    def __init__(
+        self,
+        fmu: Fmu,
+        wheelset: SimpleNamespace,
+        load: float,
+        speed: float,
+        damping: float = 0.0,
+        parameters: Mapping[str, object] | None = None,
+        beside: Mapping[str, object] | None = None,
+    ) -> None:
         """`wheelset` has mass [kg], inertia [kg m2] and radius [m]; `damping` [N s/m] resists its bounce; `parameters`
         of the FMU count for one wheel and go before everything else."""
         self.mass, self.inertia, self.radius = wheelset.mass, wheelset.inertia, wheelset.radius
-        values = whole_wheelset(fmu, wheelset, parameters or {})
-        values |= {"initial.velocity": speed, "vehicle.mass": 0.0, "vehicle.damping": damping}
-        self.wheel = Wheel(fmu, values, {"drive.load": load}, name="wheelset")
+        values, self.wheels = parameters_of(fmu, wheelset, parameters or {})
+        self.share = self.wheels / WHEELS  # of the wheelset that the FMU is
+        values |= {"initial.velocity": speed, "vehicle.mass": 0.0, "vehicle.damping": self.share * damping}
+        self.wheel, self.beside = Wheel(fmu, values, {"drive.load": self.share * load}, name="wheelset"), None
         self.reference, *held = self.wheel.get("thermal.reference", "wheel.mass", "wheel.inertia")
-        if not np.allclose(held, [self.mass, self.inertia], rtol=1e-6):
+        if not np.allclose(held, [self.share * self.mass, self.share * self.inertia], rtol=1e-6):
             self.close()
             raise Refused(f"the FMU holds {held[0]:g} kg, {held[1]:g} kg m2 in place of {wheelset}")
+        if beside:
+            self.beside = self._follower(fmu, beside, load, speed)
         self._heat = 0.0
 
-    def step(self, h, drive):
+    def _follower(self, fmu, parameters, load, speed):
+        """The wheel beside this one, whose speeds are prescribed."""
+        values = dict(parameters) | {"initial.velocity": speed, "wheel.radius": self.radius}
+        omega = self.wheel.get("wheel.omega")
+        moves = {"control.rotation": "velocity", "control.translation": "velocity", "drive.velocity": speed, "drive.omega": omega}
+        return Wheel(fmu, values, moves | {"drive.load": load / WHEELS}, name="beside")
+
+    def step(self, h: float, drive: Drive) -> Seen:
         """Advances by `h` seconds."""
+        share, before = self.share, self.wheel.get("wheel.velocity", "wheel.omega")
         ramped = {"drive.force": drive.force, "drive.load": drive.load, "brake.torque": drive.torque}
         held = {"rail.friction": drive.friction, "rail.temperature": self.reference + drive.rail_excess}
         held |= {"rail.elevation": drive.elevation, "rail.elevation_rate": drive.elevation_rate}
-        self.wheel.set({name: begin for name, (begin, _) in ramped.items()} | held)
-        self.wheel.set_rates({name: (end - begin) / h for name, (begin, end) in ramped.items()})
+        self.wheel.set({name: share * begin for name, (begin, _) in ramped.items()} | held)
+        self.wheel.set_rates({name: share * (end - begin) / h for name, (begin, end) in ramped.items()})
         self.wheel.step(h)
         seen = self.wheel.get(*OUTPUTS)
-        self._heat += h * seen[7]
-        return Seen(*seen[:7], self._heat, *seen[8:])
+        self._heat += h * seen[7] / share
+        hot = self._follow(h, drive, held, list(zip(before, seen[1:3]))) if self.beside else seen[8:]
+        position, velocity, omega, force, load, torque, energy = seen[:7]
+        return Seen(position, velocity, omega, force / share, load / share, torque / share, energy / share, self._heat, *hot)
 
-    def close(self):
-        """Frees the instance."""
+    def _follow(self, h, drive, held, motion):
+        """Temperatures of the wheel beside this one after a step from speeds to others."""
+        ramped = {"drive.velocity": motion[0], "drive.omega": motion[1], "drive.load": [load / WHEELS for load in drive.load]}
+        self.beside.set({name: begin for name, (begin, _) in ramped.items()} | held)
+        self.beside.set_rates({name: (end - begin) / h for name, (begin, end) in ramped.items()})
+        self.beside.step(h)
+        return self.beside.get(*OF_HEAT)
+
+    def close(self) -> None:
+        """Frees the instances."""
         self.wheel.close()
+        if self.beside:
+            self.beside.close()
 
 
 # Parameters that two wheels have twice.
@@ -88,30 +133,46 @@ DOUBLED = (
 )  # fmt: skip
 
 
-def runs_straight(parameters):
+def runs_straight(parameters: Mapping[str, object]) -> None:
     """Refuses parameters of wheels with lateral creepage: the wheelsets of this module, in the FMU or rigid, run straight."""
     aside = [name for name in parameters if name == "contact.lateral" and parameters[name] or ".lateral_" in name]
     if aside:
         raise Refused(f"{aside[0]}: wheelsets of a train run straight; leave it out, or give each wheel an FMU of its own (example 14)")
 
 
-def whole_wheelset(fmu, wheelset, parameters):
-    """Parameters of one wheel made those of two on an axle that weigh and turn as given [kg, kg m2]."""
+def parameters_of(fmu: Fmu, wheelset: SimpleNamespace, parameters: Mapping[str, object]) -> tuple[dict[str, object], int]:
+    """Parameters of an FMU that is the two wheels of an axle, which weigh and turn as given [kg, kg m2], and how many of them it is:
+    two as one of twice the width, or one for both where the patch has a width of its own."""
     runs_straight(parameters)
-    rim = parameters | {"wheel.radius": wheelset.radius, "wheel.hub_mass": 0.0, "wheel.hub_inertia": 0.0}
+    rim = dict(parameters) | {"wheel.radius": wheelset.radius, "wheel.hub_mass": 0.0, "wheel.hub_inertia": 0.0}
     # What is to be said of the parameters is said of the wheelset.
     with collected(), Wheel(fmu, rim) as one:
-        if not one.has_constant_width():
-            raise Refused(
-                "contact.shape = ellipse or rows is the patch of one wheel, but a wheelset is one FMU here: set contact.shape = line, or "
-                "give each wheel an FMU of its own (example 12)"
-            )
-        mass, inertia = (WHEELS * value for value in one.get("wheel.mass", "wheel.inertia"))
-        doubled = {name: WHEELS * value for name, value in zip(DOUBLED, one.get(*DOUBLED))}
-    if mass > wheelset.mass or inertia > wheelset.inertia:
+        wheels = WHEELS if one.has_constant_width() else 1
+        mass, inertia = (wheels * value for value in one.get("wheel.mass", "wheel.inertia"))
+        doubled = {name: wheels * value for name, value in zip(DOUBLED, one.get(*DOUBLED))} if wheels > 1 else {}
+    share = wheels / WHEELS
+    if mass > share * wheelset.mass or inertia > share * wheelset.inertia:
         raise Refused(f"a wheelset of {wheelset.mass:g} kg, {wheelset.inertia:g} kg m2 is lighter than its two rims")
-    hub = {"wheel.hub_mass": wheelset.mass - mass, "wheel.hub_inertia": wheelset.inertia - inertia}
-    return parameters | doubled | hub | {"wheel.radius": wheelset.radius}
+    hub = {"wheel.hub_mass": share * wheelset.mass - mass, "wheel.hub_inertia": share * wheelset.inertia - inertia}
+    return dict(parameters) | doubled | hub | {"wheel.radius": wheelset.radius}, wheels
+
+
+def whole_wheelset(fmu: Fmu, wheelset: SimpleNamespace, parameters: Mapping[str, object]) -> dict[str, object]:
+    """Parameters of one FMU that is both wheels of an axle; patches with a width of their own are refused."""
+    values, wheels = parameters_of(fmu, wheelset, parameters)
+    if wheels < WHEELS:
+        raise Refused(
+            "contact.shape = ellipse or rows is the patch of one wheel, but a wheelset is one FMU here: set contact.shape = line, or "
+            "give each wheel an FMU of its own (example 12)"
+        )
+    return values
+
+
+def patches_of(fmu: Fmu, wheelset: SimpleNamespace, parameters: Mapping[str, object], beside: Mapping[str, object]) -> str:
+    """Words on the patches of a wheelset: which shape, how many wheels an FMU is, and what is computed beside it."""
+    _, wheels = parameters_of(fmu, wheelset, parameters)
+    words = "both wheels as one line of twice the width" if wheels > 1 else "one wheel with a patch of its own, which stands for both"
+    return words + (f"; temperatures of a wheel beside it ({', '.join(map(str, beside.values()))})" if beside else "")
 
 
 class FrictionLaw(NamedTuple):
@@ -124,18 +185,21 @@ class FrictionLaw(NamedTuple):
     falling_decay: float = 0.0  # B, s/m
 
     @classmethod
-    def of(cls, parameters, fmu=None):
+    def of(cls, parameters: Mapping[str, object], fmu: Fmu | None = None) -> FrictionLaw:
         """Law of the FMU under `parameters` by name, beside the start values of `fmu` if there is one. Parameters of friction
         that this law does not know are refused."""
         given = {name: value for name, value in parameters.items() if name.startswith("friction.")}
         unknown = [name for name in given if name not in (*LAW, *WITHOUT_EFFECT)]
+        texts = [name for name in LAW if isinstance(given.get(name), (str, bool))]
+        if texts:
+            raise Refused(f"{texts[0]} = {given[texts[0]]!r} is not a number")
         if unknown:
             raise Refused(f"rigid wheelsets do not know {', '.join(unknown)}, only the law of {' and '.join(LAW)}")
         start = {name: float(fmu.variable(name).start) for name in LAW} if fmu else {}
         values = start | given
         return cls(**{name.removeprefix("friction."): values[name] for name in LAW if name in values})
 
-    def factor(self, slip):
+    def factor(self, slip: float) -> float:
         """Coefficient over that of the rail [1] at a slip velocity [m/s]."""
         return self.falling_ratio + (1.0 - self.falling_ratio) * np.exp(-self.falling_decay * abs(slip))
 
@@ -152,13 +216,13 @@ class RigidWheelset:
     before. The load is that of the suspension; nothing is hot.
     """
 
-    def __init__(self, wheelset, speed, full_slip=4e-3, law=FrictionLaw()):
+    def __init__(self, wheelset: SimpleNamespace, speed: float, full_slip: float = 4e-3, law: FrictionLaw = FrictionLaw()) -> None:
         self.mass, self.inertia, self.radius = wheelset.mass, wheelset.inertia, wheelset.radius
         self.full_slip, self.law = full_slip, law
         self.position, self.velocity, self.omega = 0.0, speed, speed / wheelset.radius
         self.slip, self.energy = 0.0, 0.0
 
-    def step(self, h, drive):
+    def step(self, h: float, drive: Drive) -> Seen:
         """Advances by `h` seconds."""
         r, m, inertia = self.radius, self.mass, self.inertia
         pull, torque, load = (0.5 * sum(pair) for pair in (drive.force, drive.torque, drive.load))
@@ -183,7 +247,7 @@ class RigidWheelset:
             self.position, velocity, omega, force, drive.load[1], acting, self.energy, 0.5 * self.energy, 0.0, 0.0, 0.0
         )
 
-    def close(self):
+    def close(self) -> None:
         """Nothing to free."""
 
 

@@ -92,6 +92,17 @@ pub(super) fn check_orders(outputs: &[(&Variable, i32)]) -> Outcome {
     })
 }
 
+/// Refuses derivatives of profiles while those of a chosen line of the patch are shown, which have none.
+pub(super) fn check_shown<'a>(line: usize, outputs: impl IntoIterator<Item = &'a Variable>) -> Outcome {
+    match outputs.into_iter().find(|variable| line > 0 && variable.is_profile()) {
+        Some(variable) => Err(CallError::error(format!(
+            "{} has derivatives with contact.shown_line = 0 only, but that is {line}",
+            variable.name
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// Refuses variables that are no outputs.
 pub(super) fn check_outputs(variables: &[&Variable]) -> Outcome {
     match variables.iter().find(|variable| variable.causality() != Causality::Output) {

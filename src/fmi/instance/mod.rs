@@ -159,14 +159,17 @@ impl WheelSlave {
 
     /// Values of variables.
     pub fn values(&mut self, variables: &[&Variable], life: &Life) -> Outcome<Vec<Value>> {
+        let (line, mut on_line) = (self.config.tuning.shown_line, None);
         if variables.iter().any(|variable| variable.causality() == Causality::Output) {
             let simulation = self.simulation(life)?;
-            if variables.iter().any(|variable| variable.is_deferred()) {
+            if line > 0 && variables.iter().any(|variable| variable.is_profile()) {
+                on_line = Some(simulation.outputs_on_line(line));
+            } else if variables.iter().any(|variable| variable.is_deferred()) {
                 simulation.all_outputs();
             }
         }
         let mut inputs = self.inputs(life);
-        let outputs = self.simulation.as_ref().map(Simulation::outputs);
+        let outputs = on_line.as_ref().or(self.simulation.as_ref().map(Simulation::outputs));
         let value = |variable: &&Variable| {
             let value = match variable.causality() {
                 Causality::Output => outputs.and_then(|outputs| variable.output(outputs)),

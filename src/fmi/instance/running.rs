@@ -79,6 +79,7 @@ impl WheelSlave {
     ) -> Outcome<Vec<f64>> {
         let direction = derivatives::direction(known)?;
         derivatives::check_outputs(unknown)?;
+        derivatives::check_shown(self.config.tuning.shown_line, unknown.iter().copied())?;
         let failed = |error| CallError::error(format!("directional derivative: {error}"));
         let difference = self.compute(life, |simulation| simulation.difference(direction))?.map_err(failed)?;
         derivatives::quotients(&difference, unknown)
@@ -87,6 +88,7 @@ impl WheelSlave {
     /// Time derivatives of outputs, each of an order (see [`Simulation::rate`]).
     pub fn output_derivatives(&mut self, outputs: &[(&Variable, i32)], life: &Life) -> Outcome<Vec<f64>> {
         derivatives::check_orders(outputs)?;
+        derivatives::check_shown(self.config.tuning.shown_line, outputs.iter().map(|(variable, _)| *variable))?;
         Ok(derivatives::rates(self.simulation(life)?, outputs))
     }
 

@@ -88,9 +88,23 @@ impl MaterialHistory {
 
     /// Highest temperature at the depths of profiles of places that were heated in one piece \[K]; none: the reference.
     pub fn peaks(&self, damage: &Damage, reference: f64) -> Vec<f64> {
-        let known = &damage.peaks;
-        let at = |z: &f64| if known.is_empty() { reference } else { interpolate(&self.spots.mesh().depth, known, *z) };
+        self.over_depth(&damage.worst.peaks, reference)
+    }
+
+    /// Largest share of martensite at the depths of profiles, of the same places \[1].
+    pub fn martensite(&self, damage: &Damage) -> Vec<f64> {
+        self.over_depth(&damage.worst.martensite, 0.0)
+    }
+
+    /// Values at the depths of the spots' mesh at those of profiles; all are `none` if nothing is known.
+    fn over_depth(&self, known: &[f64], none: f64) -> Vec<f64> {
+        let at = |z: &f64| if known.is_empty() { none } else { interpolate(&self.spots.mesh().depth, known, *z) };
         self.depths.iter().map(at).collect()
+    }
+
+    /// Angle of the wheel at which the place touches that became hottest over its depth \[rad]; none without any.
+    pub fn hottest_angle(&self, damage: &Damage) -> Option<f64> {
+        self.spots.hottest_angle(damage)
     }
 
     /// Excess temperatures at the depths of profiles \[K]: of wheel and rail below the contact point, and of the wheel

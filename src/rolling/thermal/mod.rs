@@ -363,6 +363,11 @@ impl ThermalModel {
         self.history.peaks(&thermal.damage, self.reference)
     }
 
+    /// Where the contact has heated the wheel in one piece.
+    pub fn history(&self) -> &MaterialHistory {
+        &self.history
+    }
+
     /// Absolute temperatures \[K] at the depths of profiles: of wheel and rail below the contact point, and of the wheel
     /// below the point of its tread that touches at the angle `point` of a wheel which is at `angle` now \[rad].
     pub fn below(&self, thermal: &ThermalState, angle: f64, point: f64) -> [Vec<f64>; 3] {

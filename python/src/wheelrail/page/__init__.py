@@ -5,8 +5,12 @@
 network.
 """
 
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from .. import output
 from ..files import BadFile
@@ -16,15 +20,18 @@ from .run import Run, of_dataset
 from .stops import Stop, of_table
 from .writing import run_page, stops_page
 
+if TYPE_CHECKING:
+    import xarray
+
 __all__ = ["BadFile", "Run", "drawable", "of_file", "of_stops", "write"]
 
 
-def write(path, dataset):
+def write(path: str | Path, dataset: xarray.Dataset | Run) -> Path:
     """Writes the page of a run, an xarray Dataset or a `Run`; returns its path."""
     return _save(path, run_page(dataset if isinstance(dataset, Run) else of_dataset(dataset), _now()))
 
 
-def of_stops(path, stops, title="A train brakes", about=()):
+def of_stops(path: str | Path, stops: Mapping[str, Any], title: str = "A train brakes", about: Sequence[tuple[str, str]] = ()) -> Path:
     """Writes the page of stops side by side: name to the table of `train.Stop.run` or (table, rail map), or to a `stops.Stop`.
     `about` has rows of texts on the scenario, name and value. Returns the path."""
     found = {
@@ -34,7 +41,7 @@ def of_stops(path, stops, title="A train brakes", about=()):
     return _save(path, stops_page(title, found, about, _now()))
 
 
-def of_file(source, out=None, fmu=None):
+def of_file(source: str | Path, out: str | Path | None = None, fmu: str | Path | None = None) -> Path:
     """Writes the page of a NetCDF record, a CSV or a directory of results; returns its path, by default beside the source."""
     source = Path(source)
     found = sources.read(source, fmu)

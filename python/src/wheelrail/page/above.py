@@ -1,9 +1,20 @@
-"""The contact patch seen from above: its lines side by side, with their pressure, stick and temperature over time."""
+"""The contact patch seen from above, on a grid between its lines: pressure, shear, slip, stick and temperatures over time."""
+
+import base64
 
 import numpy as np
 
+from ..grid import laid
 from .charts import rounded
 from .units import CELSIUS, shown
+
+ALONG, ACROSS = 49, 25  # places of the grid
+FINER = 3  # times as many in the picture, with values in between
+LEVELS = 8000  # whole numbers for the values of a quantity
+SHOWN = {
+    "pressure": "Pa", "shear": "Pa", "shear_z": "Pa", "slip": "m/s", "slip_z": "m/s", "state": "", "temperature_wheel": "K",
+    "temperature_rail": "K",
+}  # fmt: skip
 
 
 def of_run(run, time):
@@ -11,8 +22,8 @@ def of_run(run, time):
 
     `z` and `half_length` [mm]; `edges` [mm] between the lines, half way, and at the sides of the patch; `pressure`, the largest
     of each line; `adheres` [mm], how far along the rail a line sticks from its leading edge, and `ahead`, on which side that
-    is; `temperature_wheel` and `temperature_rail` [°C], the highest of each line, unless the run has no heat. `shear` and
-    `slip`, each a pair of rows along and across, are the mean traction on the wheel and the mean slip of each line, where
+    is; `temperature_wheel` and `temperature_rail` [°C], the highest of each line, unless the run has no heat. `grid` has
+    what lies between the lines (`_grid`). `shear` and `slip`, each a pair of rows along and across, are the mean traction on the wheel and the mean slip of each line, where
     anything goes across.
     """
     at = {name: _at(run.lines, name, time) for name in run.lines.values}
@@ -29,7 +40,51 @@ def of_run(run, time):
             rows[f"temperature_{body}"] = CELSIUS(hottest)
     found = {name: [rounded(row, 5) for row in values] for name, values in rows.items()}
     arrows, arrow_units = _arrows(at, rows)
-    return found | arrows | {"ahead": _ahead(run, time), "units": units | arrow_units}
+    return found | arrows | {"ahead": _ahead(run, time), "units": units | arrow_units, "grid": _grid(run, time, at)}
+
+
+def _grid(run, time, at):
+    """Quantities between the lines at the recorded instants nearest to some times: places `x` and `z` [mm]; `rim`, the edges at
+    `finer` times as many places across; and for each quantity its unit, least and largest value and, packed, its values as whole
+    numbers up to LEVELS, those unknown beyond it.
+
+    Of a run without profiles of its lines only the pressure is known, as half an ellipse along each line.
+    """
+    edges, half = _edges(run, at["position"], time), at["half_length"]
+    reach, margin = 1.06 * max(half.max(), 1e-6), 0.03 * float(np.ptp(edges))
+    x, z = np.linspace(-reach, reach, ALONG), np.linspace(edges.min() - margin, edges.max() + margin, ACROSS)
+    rim = np.linspace(z[0], z[-1], FINER * (ACROSS - 1) + 1)
+    sides = edges[:, [0, -1]]
+    frames = [laid(*_lines(run, at, k, t, reach), at["position"][k], half[k], sides[k], x, z, rim) for k, t in enumerate(time)]
+    names = [name for name in frames[0] if name in SHOWN and (run.across is not None or name == "pressure")]
+    found = {name: _levels(name, np.array([frame[name] for frame in frames])) for name in names}
+    ends = [[rounded(1e3 * frame["rim"][:, k], 4) for k in (0, 1)] for frame in frames]
+    places = {"x": rounded(1e3 * x, 5), "z": rounded(1e3 * z, 5), "finer": FINER, "rim": ends}
+    return places | {"quantities": {name: v for name, v in found.items() if v}}
+
+
+def _lines(run, at, k, instant, reach):
+    """Quantities of the lines in a frame, (line, node), and the places of the nodes [m]."""
+    if run.across is None:
+        nodes = np.linspace(-1.2 * reach, 1.2 * reach, 61)
+        share = np.clip(1.0 - (nodes / np.maximum(at["half_length"][k][:, None], 1e-12)) ** 2, 0.0, None)
+        return {"pressure": at["pressure_max"][k][:, None] * np.sqrt(share)}, nodes
+    sample = int(np.abs(run.lines.time - instant).argmin())
+    return {name: v[sample] for name, v in run.across.values.items() if name != "x"}, run.across.values["x"]
+
+
+def _levels(name, values):
+    """A quantity in the unit that is shown, as whole numbers; None where it has none, as temperatures of a run without heat."""
+    unit = SHOWN[name]
+    if unit == "K" and not np.any(np.nan_to_num(values)):
+        return None
+    how = CELSIUS if unit == "K" else shown(unit, values) if unit else None
+    values = values if how is None else how(values)
+    low, high = (0.0, 2.0) if how is None else (float(np.nanmin(values)), float(np.nanmax(values)))
+    share = (values - low) / ((high - low) or 1.0)
+    whole = np.where(np.isfinite(values), np.floor(np.nan_to_num(share) * LEVELS), LEVELS + 1).astype("<u2")
+    packed = base64.b64encode(whole.tobytes()).decode()
+    return {"unit": how.label if how else "", "low": low, "high": high, "levels": LEVELS, "packed": packed}
 
 
 def _arrows(at, rows):

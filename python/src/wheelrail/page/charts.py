@@ -29,6 +29,12 @@ GROUPS = (
     ("Half-width of the patch", ("contact.half_width",), None),
     ("Peak pressure", ("contact.pressure_max",), None),
 )  # fmt: skip
+# Figures that a reader wants first: those of motion and forces, and those of heat, which have a place of their own.
+FIRST = (
+    "Speed", "Creepage and slide", "Forces along the rail, on the wheel", "Vertical forces on the wheel", "Friction and adhesion",
+    "Peak pressure",
+)  # fmt: skip
+HOT, HEATED = "hot", ("Temperatures", "Heat flows")
 HIDDEN = {
     "temperature.wheel_mean",
     "temperature.rail_mean",
@@ -109,6 +115,13 @@ def of_run(run):
                 )
             )
     return charts, _others(run.time, {n: v for n, v in values.items() if n not in done}, units)
+
+
+def sorted_out(charts):
+    """Figures of `of_run` that a reader wants first, those of heat with their place, and the rest; all come first where none else does."""
+    hot = [c | {"room": HOT} for c in charts if c["title"] in HEATED]
+    first, rest = [c for c in charts if c["title"] in FIRST], [c for c in charts if c["title"] not in (*FIRST, *HEATED)]
+    return (first + hot, rest) if first else (rest + hot, [])
 
 
 def _group(title, time, drawn, unit, note=""):

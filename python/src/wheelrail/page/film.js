@@ -9,7 +9,50 @@ const TITLES = {
   shear: "shear",
   slip: "slip",
   state: "stick and slip",
+  shear_z: "lateral shear",
+  slip_z: "lateral slip",
 };
+
+// Values of a quantity of the patch from above, packed as whole numbers: rows over z at every frame; null where unknown.
+function unpackedGrid(grid) {
+  const cells = grid.x.length * grid.z.length,
+    found = {};
+  for (const [name, { packed, low, high, levels }] of Object.entries(grid.quantities)) {
+    const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0)),
+      whole = new Uint16Array(bytes.buffer),
+      value = (n) => (n > levels ? null : low + (n / levels) * (high - low)),
+      row = (from) => Array.from(whole.subarray(from, from + grid.x.length), value);
+    found[name] = (frame) => grid.z.map((_, k) => row(frame * cells + k * grid.x.length));
+  }
+  return found;
+}
+
+// Rows between rows and places between places: linear, or those of the nearest for states, of which one that touches comes first.
+function finer(rows, times, nearest) {
+  const spread = (n) => Array.from({ length: times * (n - 1) + 1 }, (_, k) => k / times);
+  const linear = (a, b, share) => (share === 0 ? a : a === null || b === null ? null : a + share * (b - a));
+  const mixed = nearest ? (a, b, share) => (share < 0.5 ? a || b : b || a) : linear;
+  const along = rows.map((row) =>
+    spread(row.length).map((k) => mixed(row[Math.floor(k)], row[Math.min(Math.floor(k) + 1, row.length - 1)], k % 1)),
+  );
+  return spread(rows.length).map((k) => {
+    const low = along[Math.floor(k)],
+      high = along[Math.min(Math.floor(k) + 1, rows.length - 1)];
+    return low.map((v, i) => mixed(v, high[i], k % 1));
+  });
+}
+
+// Colours of a quantity of the patch from above.
+function aboveScale(key, low, high, most) {
+  const [stick, slip] = ["--stick", "--slip"].map(colour);
+  if (key === "state") {
+    const colorscale = [stick, stick, slip, slip].map((c, k) => [[0, 0.5, 0.5, 1][k], c]);
+    return { colorscale, zmin: 0.5, zmax: 2.5, zsmooth: false };
+  }
+  const size = Math.max(Math.abs(low), Math.abs(high)) || 1;
+  if (key.startsWith("shear") || key.startsWith("slip")) return { colorscale: "RdBu", zmin: -size, zmax: size, zsmooth: "best" };
+  return { colorscale: key.startsWith("temp") ? INFERNO : "Viridis", zmin: low, zmax: Math.max(most, low + 1e-9), zsmooth: "best" };
+}
 
 function extent(...tables) {
   let low = Infinity,
@@ -57,21 +100,23 @@ function depthMap(field, time) {
   return { data, layout: layout(look) };
 }
 
-// The patch from above: pressure over x and z, its outline, where it sticks; beside it the hottest place of each line.
-function patchFromAbove(lines, frame, fit) {
-  const CELLS = 80,
-    row = (key) => lines[key][frame],
+// The patch from above: a quantity over x and z, its outline, where it sticks; beside it the hottest place of each line.
+function patchFromAbove(lines, grid, key, frame, fit) {
+  const row = (key) => lines[key][frame],
     z = row("z"),
     a = row("half_length"),
-    p = row("pressure"),
     edges = row("edges"),
-    unit = lines.units.pressure,
+    { unit, low, high } = lines.grid.quantities[key],
     side = lines.ahead[frame];
   const most = (table) => Math.max(...table.flat()),
     reach = 1.06 * (fit ? Math.max(...a) : most(lines.half_length)) || 1,
     across = 1.06 * (fit ? Math.max(...edges) : most(lines.edges)) || 1;
-  const places = Array.from({ length: CELLS }, (_, k) => reach * ((2 * k + 1) / CELLS - 1));
-  const pressure = z.map((_, k) => places.map((x) => (Math.abs(x) < a[k] ? p[k] * Math.sqrt(1 - (x / a[k]) ** 2) : null)));
+  const times = lines.grid.finer,
+    [places, rows] = [lines.grid.x, lines.grid.z].map((row) => finer([row, row], times, false)[0]),
+    [trailing, leading] = lines.grid.rim[frame],
+    within = (v, i, j) => (places[i] > trailing[j] && places[i] < leading[j] ? v : null),
+    all = finer(grid[key](frame), times, key === "state"),
+    values = key.startsWith("temp") ? all : all.map((line, j) => line.map((v, i) => within(v, i, j)));
   const touching = z.map((_, k) => k).filter((k) => a[k] > 0),
     ends = (wanted) => [wanted(edges[0]), ...touching.map((k) => [a[k], z[k]]), wanted(edges[edges.length - 1])],
     front = ends((edge) => [0, edge]),
@@ -80,13 +125,15 @@ function patchFromAbove(lines, frame, fit) {
     {
       type: "heatmap",
       x: places,
-      y: edges,
-      z: pressure,
-      colorscale: "Viridis",
-      zmin: 0,
-      zmax: fit ? Math.max(...p) : most(lines.pressure),
-      colorbar: { title: { text: unit }, thickness: 12, x: lines.temperature_wheel || lines.temperature_rail ? 0.6 : 1.02 },
-      hovertemplate: `x %{x:.3~g} mm, z %{y:.3~g} mm: %{z:.4~g} ${unit}<extra></extra>`,
+      y: rows,
+      z: values,
+      ...aboveScale(key, low, high, fit ? most(values.map((line) => line.map((v) => v ?? low))) : high),
+      colorbar: {
+        thickness: 12,
+        x: lines.temperature_wheel || lines.temperature_rail ? 0.6 : 1.02,
+        ...(key === "state" ? { tickvals: [1, 2], ticktext: ["sticks", "slips"] } : { title: { text: unit } }),
+      },
+      hovertemplate: `x %{x:.3~g} mm, z %{y:.3~g} mm${key === "state" ? "" : `: %{z:.4~g} ${unit}`}<extra></extra>`,
     },
     {
       type: "scatter",
@@ -98,7 +145,7 @@ function patchFromAbove(lines, frame, fit) {
       line: { color: colour("--soft"), width: 1.5, shape: "spline" },
     },
   ];
-  if (lines.adheres)
+  if (lines.adheres && !lines.grid.quantities.state)
     data.push({
       type: "scatter",
       mode: "lines+markers",
@@ -152,8 +199,8 @@ function patchFromAbove(lines, frame, fit) {
     data,
     layout: layout({
       hovermode: "closest",
-      xaxis: axis("x [mm], travel to the right →", { domain: [0, bodies.length ? 0.58 : 1], range: [-reach, reach] }),
-      yaxis: axis("z [mm], across the rail", { range: [-across, across] }),
+      xaxis: axis("x [mm], travel to the right →", { domain: [0, bodies.length ? 0.58 : 1], range: [-reach, reach], constrain: "domain" }),
+      yaxis: axis("z [mm], across the rail", { range: [-across, across], scaleanchor: "x", constrain: "domain" }),
       ...heat,
     }),
   };
@@ -333,7 +380,15 @@ class Film {
       slider = $("#slider");
     slider.max = f.time.length - 1;
     if (f.pressure) await this.drawAlong();
-    if (f.lines) await draw($("#above"), () => this.above(), false);
+    if (f.lines) {
+      this.grids = unpackedGrid(f.lines.grid);
+      for (const key of Object.keys(this.grids)) $("#seen").add(new Option(TITLES[key], key));
+      await draw($("#above"), () => this.above(), false);
+      $("#seen").addEventListener("change", () => {
+        const { data, layout: look } = this.above();
+        Plotly.react($("#above"), data, look, CONFIG);
+      });
+    }
     slider.addEventListener("input", () => {
       this.stop();
       this.show(Number(slider.value));
@@ -344,7 +399,7 @@ class Film {
   }
 
   above() {
-    return patchFromAbove(this.film.lines, this.frame, $("#follow").checked);
+    return patchFromAbove(this.film.lines, this.grids, $("#seen").value, this.frame, $("#follow").checked);
   }
 
   async drawAlong() {

@@ -11,6 +11,12 @@ STICKS = 1e-6  # m/s: a place that slips less sticks
 STRIKING = 50.0  # K: a rise on which the map of the patch begins zoomed
 STILL = 0.5  # K: a field that changes less is not drawn
 SHAPES = {"pressure": "Pa", "shear": "Pa", "slip": "m/s", "temperature_wheel": "K", "temperature_rail": "K"}
+# Titles of temperatures over the depth, in plain words.
+BELOW = {
+    "temperature_wheel_below": "Wheel, below the contact", "temperature_rail_below": "Rail, below the contact",
+    "temperature_hottest_below": "Wheel, below its hottest place", "temperature_tread_below": "Wheel, below a point of its tread",
+    "peak_temperature": "Highest so far where the wheel was heated in one piece",
+}  # fmt: skip
 READINGS = (
     ("travel", "wheel.velocity", KMH), ("force along the rail", "contact.force_x", None), ("load", "contact.force_y", None),
     ("friction μ", "contact.friction", None), ("limit in use", "contact.utilisation", PERCENT),
@@ -122,9 +128,11 @@ def _readings(run, time):
 
 
 def fields(run):
-    """Temperatures over depth and time in °C, down to where they differ from the coldest by 2 % of the largest rise."""
+    """Temperatures over depth and time in °C, those of the tread in the order of BELOW, down to where they differ from the coldest by 2 % of the largest rise."""
     found = []
-    for name, field in run.fields.items():
+    for name, field in sorted(run.fields.items(), key=lambda item: [*BELOW, item[0]].index(item[0])):
+        if name == "martensite":
+            continue
         if not np.isfinite(field.values).any() or np.nanmax(field.values) - np.nanmin(field.values) < STILL:
             continue
         kept = chosen(field.time, [field.values])
@@ -133,7 +141,7 @@ def fields(run):
         warm = np.flatnonzero(rise > 0.02 * max(rise.max(), 1e-9))
         deep = min(len(field.depth), int(warm[-1]) + 2 if len(warm) else len(field.depth))
         found.append({
-            "title": field.meaning or name.replace("_", " ").capitalize(), "note": "", "time": rounded(field.time[kept], 7),
+            "title": BELOW.get(name) or field.meaning or name.replace("_", " ").capitalize(), "note": "", "time": rounded(field.time[kept], 7),
             "depth": rounded(1e3 * field.depth[:deep], 5), "values": _rows(values[:, :deep].T - KELVIN),
         })  # fmt: skip
     return found

@@ -67,6 +67,13 @@ def section(key, title, content, note=""):
     return f'<section id="{key}">\n<h2>{escape(title)}</h2>\n{words}{content}\n</section>'
 
 
+def folded_section(key, title, content, note=""):
+    """A section that opens at a click."""
+    words = f'<p class="note">{escape(note)}</p>' if note else ""
+    inside = f'{words}<div class="inside">{content}</div>'
+    return f'<section id="{key}" class="folded">\n<details><summary><h2>{escape(title)}</h2></summary>\n{inside}\n</details>\n</section>'
+
+
 def table(rows, kind="", header=True):
     """A table of texts; the first row is the head."""
     row = lambda cells, tag: "<tr>" + "".join(f"<{tag}>{escape(str(cell))}</{tag}>" for cell in cells) + "</tr>"
@@ -94,7 +101,7 @@ MAP = """<div class="map">
 <div id="map" class="plot tall"></div>
 </div>"""
 READINGS = '<div class="readings" aria-live="off"></div>'
-ABOVE = '<div id="above" class="plot"></div>'
+ABOVE = '<label class="seen">shown <select id="seen"></select></label><div id="above" class="plot"></div>'
 BAR = """<div id="bar" role="group" aria-label="time of the film">
 <button id="play" type="button" aria-pressed="false">▶ play</button>
 <input id="slider" type="range" min="0" value="0" step="1" aria-label="time of the film">

@@ -166,7 +166,7 @@ function place(parent, title, note) {
 
 // Places for figures, all of them before the first is drawn: they share the width.
 function placed(charts, parent) {
-  return charts.map((chart) => [chart, place($(parent), chart.title, chart.note)]);
+  return charts.map((chart) => [chart, place($(chart.room ? `#${chart.room}` : parent), chart.title, chart.note)]);
 }
 
 // The same range of y for a figure of all stops, so that they compare; none if a stop would be a flat line in it.
@@ -222,7 +222,7 @@ async function start() {
     await draw(div, () => depthMap(field, film ? film.time() : null), true);
   for (const [chart, div] of placed(data.overview, "#together")) await draw(div, () => curves(chart, null), false);
   await drawViews(data.views, film);
-  if (data.more.length) $("#more").parentElement.addEventListener("toggle", () => drawMore(data.more, film), { once: true });
+  if (data.more.length) $("#more").closest("details").addEventListener("toggle", () => drawMore(data.more, film), { once: true });
   if (film) film.link(drawn);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
   addEventListener("beforeprint", () => print(true));

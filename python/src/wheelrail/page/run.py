@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .. import damage
+
 
 @dataclass
 class Series:
@@ -37,7 +39,9 @@ class Field:
 class Run:
     """A wheel over time. `series` are the FMU's variables by name; `about` may hold fmu_version, preset, parameters (those
     that differ from the preset), inputs (the constant ones), warnings (texts, or pairs of time [s] and text). `lines` has what each
-    line of a patch with a width of its own has, by names without `line.`, over time and line."""
+    line of a patch with a width of its own has, by names without `line.`, over time and line; `across` the profiles of these lines,
+    by names without `patch.`, over time, line and node, whose places [m] are its `x`. `damage` is a `wheelrail.damage.Damage`.
+    `about["figures"]` are rows of texts, name and value, that stand in the place of the page's own duration and distance."""
 
     title: str
     time: np.ndarray
@@ -46,6 +50,8 @@ class Run:
     fields: dict = field(default_factory=dict)
     about: dict = field(default_factory=dict)
     lines: Profiles | None = None
+    across: Profiles | None = None
+    damage: object | None = None
 
     def __post_init__(self):
         # A run without heat has temperatures of 0 K.
@@ -76,7 +82,7 @@ def of_table(title, fmu, names, table, patch=None, about=None):
 def of_dataset(dataset):
     """The run of an xarray Dataset as `wheelrail.records` makes them."""
     time = np.asarray(dataset["time"].values, float)
-    series, patch, fields, lines = {}, {}, {}, {}
+    series, patch, fields, lines, across = {}, {}, {}, {}, {}
     at = time
     for name, variable in dataset.data_vars.items():
         unit, meaning = variable.attrs.get("units", ""), variable.attrs.get("comment", variable.attrs.get("long_name", ""))
@@ -85,12 +91,14 @@ def of_dataset(dataset):
             continue
         if variable.dims == ("time",):
             series[name] = Series(values, unit, meaning)
-        elif values.ndim == 2 and variable.dims[1] == "depth":
+        elif values.ndim == 2 and variable.dims[1] == "depth" and unit in ("K", ""):
             seen = np.isfinite(values).any(axis=1)
             at_depth = np.asarray(dataset["depth"].values, float)
             fields[name.removeprefix("profile.")] = Field(
                 _axis(dataset, variable.dims[0], time)[seen], at_depth, values[seen], meaning
             )
+        elif variable.dims == ("time", "line", "node"):
+            across[name.removeprefix("patch.")] = values
         elif values.ndim == 2 and variable.dims[1] == "line":
             lines[name.removeprefix("line.")] = values
         elif values.ndim == 2 and name.startswith("profile."):
@@ -98,7 +106,18 @@ def of_dataset(dataset):
             at = _axis(dataset, variable.dims[0], time)
     about = {name: _loaded(value) for name, value in dataset.attrs.items()}
     title = str(about.pop("title", "") or "Run")
-    return Run(title, time, series, seen_rows(Profiles(at, patch)), fields, about, seen_lines(time, lines))
+    seen = seen_lines(time, lines)
+    between = Profiles(time, across | {"x": np.asarray(dataset["x"].values, float)}) if across and seen else None
+    return Run(title, time, series, seen_rows(Profiles(at, patch)), fields, about, seen, between, _damage(dataset))
+
+
+def _damage(dataset):
+    """What a slide left, where the record has it and something was heated."""
+    try:
+        found = damage.report(dataset)
+    except damage.NoDamage:
+        return None
+    return found if found.flats else None
 
 
 def _numbers(variable):

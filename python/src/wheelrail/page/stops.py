@@ -33,6 +33,15 @@ class Stop:
         return np.column_stack([self.columns[n] for n in names]) if all(n in self.columns for n in names) else None
 
 
+def reached(stop):
+    """Distance and time of a stop as a text: until it rests, as everywhere, or where that is not known to its end."""
+    table = stop.table()
+    if table is None:
+        return f"{number(stop.travelled())} m in {number(float(stop.columns['time'][-1]))} s"
+    known = report.figures(table)
+    return f"{number(known['stopping distance'][0])} m in {number(known['stopping time'][0])} s"
+
+
 def recognised(names):
     """Whether these are the columns of a stop."""
     return {"time", "speed", "peripheral_1"} <= set(names)

@@ -6,7 +6,7 @@ import re
 import numpy as np
 
 from . import balance, charts, film, html, stops
-from .units import CELSIUS, KMH, PERCENT, number, shown
+from .units import CELSIUS, KMH, PERCENT, Shown, number, shown
 
 MOMENT = re.compile(r"^t = ([\d.e+-]+) s: ")  # with which the FMU begins its warnings
 CREDIT = "Drawn by plotly.js (MIT licence, © Plotly), which is inside this file; nothing is loaded from anywhere."
@@ -27,30 +27,31 @@ def run_page(run, when):
     if across:
         readings = "" if along else html.READINGS
         parts.append(html.section("lines", "The contact patch from above", readings + html.ABOVE, _above_note(patch, along)))
-    if depth:
-        parts.append(html.section("depth", "Temperature below the surface", html.charts("fields"), "Over depth and time."))
     curves, others = charts.of_run(run)
-    more = html.folded(f"{len(others)} more figures", html.charts("more")) if others else ""
-    parts.append(html.section("curves", "Over time", html.charts() + more, _curves_note(run, bool(patch))))
+    first, rest = charts.sorted_out(curves)
+    parts.append(html.section("curves", "Speeds and forces", html.charts(), _curves_note(run, bool(patch))))
+    if depth or any(chart.get("room") for chart in first):
+        parts.append(html.section("heat", "Temperatures", html.charts(charts.HOT) + html.charts("fields")))
+    if run.damage:
+        parts.append(html.section("damage", "Damage", _damage(run.damage), _damage_note(run.damage)))
+    if rest or others:
+        parts.append(html.folded_section("rest", f"{len(rest) + len(others)} more figures over time", html.charts("more")))
     found = balance.of_run(run)
     if found:
-        parts.append(html.section("balances", "Balances at the end", "".join(map(_balance, found))))
-    parts.append(html.section("settings", "What was set", settings(run)))
-    parts.append(
-        html.section(
-            "quantities", "Quantities", html.folded(f"{len(run.series)} quantities, their range and meaning", quantities(run))
-        )
-    )
+        parts.append(html.folded_section("balances", "Balances at the end", "".join(map(_balance, found))))
+    parts.append(html.folded_section("settings", "What was set", settings(run)))
+    parts.append(html.folded_section("quantities", f"{len(run.series)} quantities: range and meaning", quantities(run)))
     parts.append(html.BAR if patch else "")
     parts.append(f"<footer><p>{html.escape(CREDIT)}</p></footer>")
-    data = {"views": {"": curves}, "more": others, "overview": [], "film": patch, "fields": depth}
+    below = damage_charts(run.damage) if run.damage else []
+    data = {"views": {"": first}, "more": rest + others, "overview": below, "film": patch, "fields": depth}
     return html.document(run.title, "\n".join(parts), data)
 
 
 def stops_page(title, found, about, when):
     """The page of stops: `found` is name to `stops.Stop`, `about` rows of texts."""
     first, title = next(iter(found.values())), title[:1].upper() + title[1:]
-    longest = [(name, f"{number(s.travelled())} m in {number(float(s.columns['time'][-1]))} s") for name, s in found.items()]
+    longest = [(name, stops.reached(s)) for name, s in found.items()]
     parts = [html.head(title, f"{len(found)} stops, {len(first.axles())} axles, written {when}", longest), html.EMPTY]
     parts.append(html.section("overview", "Side by side", html.charts("together")))
     rows = stops.figures(found)
@@ -81,11 +82,12 @@ def _subtitle(run, when):
 
 def tiles(run):
     """Key figures: label and value, as far as the run has them."""
-    get, found = run.get, [("duration", f"{number(float(run.time[-1] - run.time[0]))} s")]
+    get, own = run.get, run.about.get("figures")
+    found = [tuple(row) for row in own or [("duration", f"{number(float(run.time[-1] - run.time[0]))} s")]]
     v = get("wheel.velocity")
     if v is not None:
         found.append(("speed", f"{number(float(KMH(v[0])), 3)} → {number(round(float(KMH(v[-1])), 2), 3)} km/h"))
-    if run.has("wheel.distance"):
+    if run.has("wheel.distance") and not own:
         found.append(("distance", f"{number(float(get('wheel.distance')[-1] - get('wheel.distance')[0]))} m"))
     if v is not None and run.has("contact.creepage"):
         rolls = np.abs(v) > min(charts.ROLLING, 0.05 * np.abs(v).max())
@@ -139,12 +141,13 @@ def _film_note(run, patch):
 
 
 def _above_note(patch, along):
-    note = (
-        "Each line of the patch with its largest pressure, which is drawn as half an ellipse along the rail about the middle of the"
-        " line; travel is to the right."
-    )
-    if "adheres" in patch["lines"]:
-        note += " What sticks is drawn in one piece from the leading edge: the share of the line that sticks, not where it does."
+    known = "state" in patch["lines"]["grid"]["quantities"]
+    note = "What the lines of the patch have, interpolated between them; travel is to the right."
+    if not known:
+        note += (
+            " Pressure is drawn as half an ellipse along each line. What sticks is drawn in one piece from the leading edge: the share"
+            " of the line that sticks, not where it does. A record with patch=True has both as they are."
+        )
     if not along and patch["of"] > len(patch["time"]):
         note += f" {len(patch['time'])} of {patch['of']} recorded instants, extremes kept."
     return note
@@ -155,6 +158,31 @@ def _curves_note(run, patch):
     if len(run.time) > 2 * charts.POINTS:
         note += f" Curves are thinned from {len(run.time)} samples; lowest and highest values are kept."
     return note + (" The vertical line is the time of the film." if patch else "")
+
+
+def _damage(found):
+    """Findings, figures over the depth, and what others observed."""
+    tables = html.table(found.rows(), "findings", header=False)
+    if found.comparisons():
+        tables += html.table([("observed by others", "here", "source"), *found.comparisons()])
+    return f'<div class="columns">{tables}</div>' + html.charts("together")
+
+
+def _damage_note(found):
+    note = "Of the place of the tread that the contact heated most while the wheel stood still, or nearly so."
+    return note if found.final else note + " Steel still cools: the findings may change."
+
+
+def damage_charts(found):
+    """Highest temperature, martensite and hardness over the depth, down to where something has changed."""
+    deep = int(np.flatnonzero(found.peak > found.peak.min() + 0.02 * np.ptp(found.peak)).max(initial=1)) + 2
+    depth = 1e3 * found.depth[:deep]
+    rows = (
+        ("Highest temperature over the depth", CELSIUS, found.peak), ("Martensite over the depth", PERCENT, found.martensite),
+        ("Hardness over the depth", Shown("HV"), found.hardness),
+    )  # fmt: skip
+    curve = lambda k, unit, values: charts.trace(depth, unit(values[:deep]), "end of the run", k + 1)
+    return [charts.chart(title, unit.label, [curve(k, unit, v)], x="depth [mm]") for k, (title, unit, v) in enumerate(rows)]
 
 
 def _balance(found):

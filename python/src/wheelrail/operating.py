@@ -1,0 +1,206 @@
+"""Stationary rolling: forces over creepage, of an FMU that is only started and never stepped.
+
+`steady` gives a Dataset over the creepage; `python -m wheelrail steady` prints it as a CSV. The numbers are those of the program
+in Rust.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import sys
+from argparse import ArgumentTypeError, Namespace
+from collections.abc import Iterable, Mapping
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .files import BadFile
+from .fmu import Fmu, Wheel, default_path
+from .output import write
+from .records import attributes, library
+from .values import Refused, check_names, short
+
+if TYPE_CHECKING:
+    import xarray
+
+OUTPUTS = (
+    "contact.creepage", "contact.force_x", "contact.adhesion", "contact.utilisation", "contact.stick_fraction",
+    "contact.half_width", "contact.pressure_max", "contact.moment", "contact.friction", "temperature.wheel_max",
+    "temperature.rail_max", "heat.friction_power",
+)  # fmt: skip
+RANGE, COUNT = 1.5, 16  # of Carter's full slip, and points up to there
+PASSES, TOLERANCE = 8, 1e-12  # that find the growth of a warm wheel, and what they may miss of its radius
+PRESCRIBED = {"control.rotation": "velocity", "control.translation": "velocity"}
+FOLLOWS = ("drive.velocity", "drive.omega", "initial.creepage")
+
+
+class OperatingPoint(Wheel):
+    """A wheel in stationary rolling with prescribed speeds, which stays before its first step."""
+
+    def __init__(self, fmu: Fmu, parameters: Mapping[str, object], inputs: Mapping[str, object]):
+        wrong = next((name for name in (*parameters, *inputs) if name in FOLLOWS), None)
+        if wrong:
+            raise Refused(f"{wrong} follows from velocity and creepage and cannot be set")
+        choices = {name: value for name, value in PRESCRIBED.items() if name in fmu.variables}
+        start = {"initial.temperature": "stationary"} | dict(parameters)
+        super().__init__(fmu, start, choices | dict(inputs), name="steady")
+
+    def _begin(self):
+        """Leaves the wheel in initialization, in which every creepage has its stationary state."""
+
+    def close(self) -> None:
+        """Frees the instance."""
+        try:
+            self._call(self.slave.exitInitializationMode)
+        except Refused:
+            self._free()  # What cannot start need not be terminated.
+            return
+        super().close()
+
+    def roll(self, velocity: float, creepage: float) -> None:
+        """Moves on to a creepage [1] at a velocity [m/s], that of the radius to which the wheel then grows."""
+        omega = velocity * (2.0 - creepage) / (2.0 + creepage)  # of 2 (V − rΩ)/(V + rΩ), times the radius
+        radius, growth = self.get("wheel.radius"), 0.0
+        for _ in range(PASSES):
+            self._set({"drive.velocity": velocity, "drive.omega": omega / (radius + growth)})
+            growth, before = self.get("thermal.growth"), growth
+            if abs(growth - before) <= TOLERANCE * radius:
+                return
+
+
+def steady(
+    parameters: Mapping[str, object] | None = None,
+    inputs: Mapping[str, object] | None = None,
+    *,
+    creepage: float | Iterable[float] | None = None,
+    velocity: float | None = None,
+    outputs: str | Iterable[str] | None = None,
+    fmu: Fmu | str | Path | None = None,
+) -> xarray.Dataset:
+    """Stationary rolling at one or many creepages: a Dataset over `creepage` [1], as many points as creepages are given.
+
+    `creepage` is 2 (V − rΩ)/(V + rΩ), positive when braking: by itself 16 points up to 1.5 times Carter's full slip μa/R.
+    `velocity` [m/s] is `initial.velocity` if it is not given. `outputs` are names of outputs. Temperatures are those that the
+    wheel has after long rolling. A state that is refused raises `Refused`.
+    """
+    xarray = library("xarray")
+    names = list(OUTPUTS) if outputs is None else [outputs] if isinstance(outputs, str) else list(outputs)
+    parameters, inputs = parameters or {}, inputs or {}
+    check_names(parameters, "steady")
+    check_names(inputs, "steady")
+    with ExitStack() as stack:
+        opened = fmu if isinstance(fmu, Fmu) else stack.enter_context(Fmu(fmu))
+        wheel = stack.enter_context(OperatingPoint(opened, parameters, inputs))
+        speed = _speed(wheel, velocity)
+        places = _range(wheel, speed) if creepage is None else _creepages(creepage)
+        rows = []
+        for place in places:
+            wheel.roll(speed, place)
+            rows.append(np.atleast_1d(wheel.get(*names)))
+        columns = np.array(rows, float).T
+        about = {name: attributes(opened.variable(name)) for name in (*names, "contact.creepage")}
+        data = {name: ("creepage", column, about[name]) for name, column in zip(names, columns)}
+        over = {"creepage": ("creepage", np.asarray(places, float), about["contact.creepage"])}
+        attrs = {"velocity": speed, "preset": wheel.get("preset"), "fmu_version": opened.description.version or ""}
+        return xarray.Dataset(data, over, attrs)
+
+
+def _speed(wheel: Wheel, velocity: float | None) -> float:
+    """The velocity [m/s], which is none of standstill."""
+    speed = wheel.get("initial.velocity") if velocity is None else velocity
+    if isinstance(speed, bool) or not isinstance(speed, (int, float, np.number)) or not np.isfinite(speed) or abs(speed) < 0.02:
+        raise ValueError(f"velocity = {short(speed)} is no velocity in m/s of a wheel that travels")
+    return float(speed)
+
+
+def _range(wheel: OperatingPoint, speed: float) -> np.ndarray:
+    """Creepages up to well beyond full slip."""
+    wheel.roll(speed, 0.0)
+    friction, half_width, radius = wheel.get("contact.friction", "contact.half_width", "wheel.radius")
+    full_slip = friction * half_width / radius
+    if not full_slip > 0.0:
+        raise Refused("no full slip without friction and load to range up to: name a creepage")
+    return np.linspace(0.0, RANGE * full_slip, COUNT)
+
+
+def _creepages(given: float | Iterable[float]) -> np.ndarray:
+    """Creepages as an array; each must be one that a travelling wheel can have."""
+    try:
+        values = np.atleast_1d(np.asarray(given, float))
+    except (TypeError, ValueError):
+        raise ValueError(f"creepage = {short(given)} is no number and no list of numbers") from None
+    wrong = [value for value in values.ravel() if not abs(value) < 2.0]
+    if values.ndim != 1 or wrong or not len(values):
+        raise ValueError(f"creepage = {short(wrong[0] if wrong else given)} is outside -2 to 2, or no list")
+    return values
+
+
+def ranged(text: str) -> np.ndarray:
+    """Creepages of a command line: one, or FROM:TO:COUNT with both ends."""
+    try:
+        first, *rest = text.split(":")
+        if not rest:
+            return _creepages(float(first))
+        last, count = rest
+        if int(count) < 2:
+            raise ValueError("at least 2 points for a range")
+        return _creepages(np.linspace(float(first), float(last), int(count)))
+    except ValueError as error:
+        raise ArgumentTypeError(f"{text!r}: expected one number or FROM:TO:COUNT ({error})") from None
+
+
+def setting(text: str) -> tuple[str, object]:
+    """Name and value of NAME=VALUE: a number where it is one, else the text."""
+    name, sign, value = text.partition("=")
+    if not sign:
+        raise ArgumentTypeError(f"{text!r}: expected NAME=VALUE")
+    try:
+        return name.strip(), float(value)
+    except ValueError:
+        return name.strip(), value.strip()
+
+
+def add_command(commands: Any) -> None:
+    """Adds the command to those of `wheelrail`."""
+    command = commands.add_parser("steady", help="stationary rolling: forces over creepage, or one operating point")
+    command.add_argument("--preset", help="parameter set, default railway")
+    command.add_argument("--velocity", type=float, help="[m/s], default: initial.velocity")
+    command.add_argument("--creepage", type=ranged, help="one, or FROM:TO:COUNT; default: up to 1.5 times Carter's full slip")
+    command.add_argument("--set", dest="settings", type=setting, action="append", default=[], metavar="NAME=VALUE", help="a parameter or input")
+    command.add_argument("--out", type=Path, help="CSV file, default: standard output")
+    command.add_argument("--fmu", type=Path, default=default_path(), help="default: %(default)s")
+
+
+def run(options: Namespace) -> None:
+    """Prints or writes the curve; with a file another one beside it says units and meanings."""
+    if not options.fmu.is_file():
+        raise BadFile(f"{options.fmu} does not exist: build it with `make fmu`, or name one with --fmu or the variable WHEELRAIL_FMU")
+    with Fmu(options.fmu) as fmu:
+        given = {name: _converted(fmu, name, value) for name, value in options.settings}
+        inputs = {name: value for name, value in given.items() if fmu.variable(name).causality == "input"}
+        parameters = {name: value for name, value in given.items() if name not in inputs}
+        parameters |= {"preset": options.preset} if options.preset else {}
+        try:
+            curve = steady(parameters, inputs, creepage=options.creepage, velocity=options.velocity, fmu=fmu)
+        except ValueError as error:
+            raise BadFile(str(error)) from None
+    names = list(curve.data_vars)
+    rows = zip(*(curve[name].values for name in names))
+    text = io.StringIO()
+    csv.writer(text).writerows([names, *([f"{value:.9g}" for value in row] for row in rows)])
+    if options.out is None:
+        sys.stdout.write(text.getvalue())
+        return
+    write(options.out, text.getvalue())
+    print(f"written: {options.out}")
+
+
+def _converted(fmu: Fmu, name: str, value: object) -> object:
+    """A value of the command line as its variable takes it: flags and whole numbers."""
+    kind = fmu.variable(name).type
+    if kind == "Boolean" and value in ("true", "false"):
+        return value == "true"
+    return int(value) if kind == "Integer" and isinstance(value, float) and value.is_integer() else value
