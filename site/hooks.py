@@ -16,6 +16,7 @@ SHOWN = (
     "examples/train/schema/*.json", "packaging/build", "packaging/*.py", "packaging/*.c", ".github/workflows/*.yml",
 )  # fmt: skip
 RUST = ROOT / "target" / "doc"
+BENCH = ROOT / "target" / "bench"
 
 
 def shown():
@@ -24,13 +25,16 @@ def shown():
 
 
 def on_files(files, config):
-    """Adds the files of the repository and of rustdoc."""
+    """Adds the files of the repository, of rustdoc and, where it has been made, of the bench."""
     if not (RUST / "wheelrail" / "index.html").is_file():
         raise PluginError(f"{RUST}/wheelrail/index.html does not exist: run `make docs`")
     for path in shown():
         files.append(File.generated(config, path.removeprefix("."), abs_src_path=str(ROOT / path)))
     for index in RUST.glob("*/index.html"):
         files.append(File.generated(config, f"rust/{index.relative_to(RUST).as_posix()}", abs_src_path=str(index)))
+    for path in BENCH.rglob("*") if BENCH.is_dir() else ():
+        if path.is_file():
+            files.append(File.generated(config, f"bench/{path.relative_to(BENCH).as_posix()}", abs_src_path=str(path)))
     return files
 
 

@@ -1,0 +1,223 @@
+//! The patch from above: pressure, shear, slip and temperatures on a regular grid of x, along the rail, and z, across.
+//!
+//! A patch is computed on lines side by side. Between two of them the square of the half-length is linear in z, or of a
+//! symmetric patch in z², and falls to zero at the edge: the outline of an ellipse is exact. Values are taken at the
+//! same share of the half-length. Pressure and shear are proportional to it besides, so that of an ellipse Hertz's
+//! pressure is exact; slip and temperature are linear.
+
+use wheelrail::contact::Traction;
+use wheelrail::rolling::{Line, State};
+use wheelrail::simulation::Outputs;
+
+/// Slip [m/s] below which a place sticks, as in the report page.
+const STICKS: f64 = 1e-6;
+/// Free width between two lines, over their mean width, from which on they belong to two patches \[1].
+const APART: f64 = 0.2;
+
+/// Numbers of places along and across.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GridSize {
+    /// Along the rail.
+    pub along: usize,
+    /// Across it.
+    pub across: usize,
+}
+
+/// Quantities on the grid, in this order, one after the other; each row by row, x ascending in a row.
+pub const QUANTITIES: [&str; 6] = ["pressure", "shear", "slip", "state", "temperature_wheel", "temperature_rail"];
+/// Values of `state`: nothing touches, the surfaces stick, they slip.
+pub const STATES: [f64; 3] = [0.0, 1.0, 2.0];
+
+/// One line as the grid sees it.
+struct Strip<'a> {
+    line: &'a Line,
+    /// Lateral position of its middle \[m].
+    z: f64,
+    /// Width \[m].
+    width: f64,
+    /// Middle and half-length of its contact \[m].
+    centre: f64,
+    half_length: f64,
+}
+
+/// Lines with no free width between them, z ascending.
+struct Group<'a> {
+    strips: Vec<Strip<'a>>,
+    /// Both ends \[m].
+    low: f64,
+    high: f64,
+}
+
+/// A place across a group: two neighbours with the share of the second, and the half-length there.
+struct Place<'a, 'b> {
+    lines: [(&'b Strip<'a>, f64); 2],
+    centre: f64,
+    half_length: f64,
+    /// Half-length over that of the outermost line beyond it, otherwise 1.
+    fading: f64,
+}
+
+/// The patch of a state. Its lines are those of the outputs `line.*`.
+pub struct PatchMap<'a> {
+    groups: Vec<Group<'a>>,
+    symmetric: bool,
+    constant: bool,
+    points: &'a [f64],
+    reference: f64,
+}
+
+impl<'a> PatchMap<'a> {
+    /// The patch of a state and of its outputs; `constant`: of one width along all of its length. `reference` is the
+    /// temperature of cold steel \[K].
+    pub fn new(state: &'a State, outputs: &'a Outputs, constant: bool, reference: f64) -> Self {
+        let symmetric = outputs.contact_line_count as usize > state.lines.len();
+        let strips = seen(&state.lines, symmetric).into_iter().enumerate().map(|(k, line)| strip(line, outputs, k));
+        let mut groups: Vec<Group> = Vec::new();
+        for strip in strips {
+            let [low, high] = [-0.5, 0.5].map(|side| strip.z + side * strip.width);
+            match groups.last_mut() {
+                Some(group) if symmetric || low - group.high < APART * strip.width => {
+                    group.high = high;
+                    group.strips.push(strip);
+                }
+                _ => groups.push(Group { strips: vec![strip], low, high }),
+            }
+        }
+        if let (true, [group]) = (symmetric, groups.as_mut_slice()) {
+            (group.low, group.high) = (-0.5 * outputs.contact_width, 0.5 * outputs.contact_width);
+        }
+        Self { groups, symmetric, constant, points: &outputs.profile_x, reference }
+    }
+
+    /// Both ends of the patch across \[m].
+    pub fn ends(&self) -> [f64; 2] {
+        [self.groups.first().map_or(0.0, |group| group.low), self.groups.last().map_or(0.0, |group| group.high)]
+    }
+
+    /// Appends the values of all [`QUANTITIES`] on a grid whose cells fill `x` and `z` \[m], at the middle of each.
+    pub fn fill(&self, size: GridSize, [x, z]: [[f64; 2]; 2], out: &mut Vec<f64>) {
+        let first = out.len();
+        let cells = size.along * size.across;
+        out.resize(first + QUANTITIES.len() * cells, 0.0);
+        let middle = |[low, high]: [f64; 2], k: usize, n: usize| low + (high - low) * (k as f64 + 0.5) / n as f64;
+        for row in 0..size.across {
+            let place = self.place(middle(z, row, size.across));
+            for column in 0..size.along {
+                let values = self.values(place.as_ref(), middle(x, column, size.along));
+                for (quantity, value) in values.into_iter().enumerate() {
+                    out[first + quantity * cells + row * size.along + column] = value;
+                }
+            }
+        }
+    }
+
+    fn place<'b>(&'b self, z: f64) -> Option<Place<'a, 'b>> {
+        let group = self.groups.iter().find(|group| (group.low..=group.high).contains(&z))?;
+        let (first, last) = (group.strips.first()?, group.strips.last()?);
+        if self.constant {
+            return Some(Place {
+                lines: [(first, 1.0), (first, 0.0)],
+                centre: first.centre,
+                half_length: first.half_length,
+                fading: 1.0,
+            });
+        }
+        let law = |z: f64| if self.symmetric { z * z } else { z };
+        let beyond = |line: &'b Strip<'a>, edge: f64| {
+            let Strip { z: end, centre, half_length, .. } = *line;
+            let left = (law(edge) - law(z)) / (law(edge) - law(end));
+            let fading = if left.is_finite() { left.max(0.0).sqrt() } else { 1.0 };
+            Place { lines: [(line, 1.0), (line, 0.0)], centre, half_length: fading * half_length, fading }
+        };
+        if z <= first.z {
+            return Some(beyond(first, group.low));
+        }
+        if z >= last.z {
+            return Some(beyond(last, group.high));
+        }
+        let pair = group.strips.windows(2).find(|pair| z <= pair[1].z)?;
+        let [a, b] = [&pair[0], &pair[1]];
+        // Of two lines at the same distance from the middle, z² tells nothing.
+        let between = |low: f64, high: f64, at: f64| if high == low { 0.5 } else { (at - low) / (high - low) };
+        let of_law = between(law(a.z), law(b.z), law(z));
+        let share = if (0.0..=1.0).contains(&of_law) { of_law } else { between(a.z, b.z, z) };
+        let mix = |x: f64, y: f64| x + share * (y - x);
+        Some(Place {
+            lines: [(a, 1.0 - share), (b, share)],
+            centre: mix(a.centre, b.centre),
+            half_length: mix(a.half_length.powi(2), b.half_length.powi(2)).sqrt(),
+            fading: 1.0,
+        })
+    }
+
+    fn values(&self, place: Option<&Place>, x: f64) -> [f64; QUANTITIES.len()] {
+        let mut values = [0.0, 0.0, 0.0, STATES[0], self.reference, self.reference];
+        let Some(Place { lines, centre, half_length, fading }) = place else { return values };
+        let (from_centre, mut slips) = (x - centre, 0.0);
+        let inside = from_centre.abs() <= *half_length;
+        for (strip, weight) in lines.iter().filter(|(_, weight)| *weight > 0.0) {
+            let at = strip.centre
+                + match inside && *half_length > 0.0 {
+                    true => from_centre / half_length * strip.half_length,
+                    false => from_centre + from_centre.signum() * (strip.half_length - half_length),
+                };
+            let traction = &strip.line.contact.traction;
+            if inside && strip.half_length > 0.0 {
+                let scale = weight * half_length / strip.half_length;
+                values[0] += scale * traction.pressure.at(at);
+                values[1] += scale * traction.shear.at(at);
+                let slip = traction.slip.at(at);
+                values[2] += weight * slip;
+                slips += weight * f64::from(u8::from(slip.abs() > STICKS));
+            }
+            if let Some(thermal) = &strip.line.thermal {
+                for (body, surface) in thermal.surface.iter().enumerate() {
+                    values[4 + body] += fading * weight * interpolated(self.points, surface, at);
+                }
+            }
+        }
+        if values[0] > 0.0 {
+            values[3] = if slips > 0.5 { STATES[2] } else { STATES[1] };
+        }
+        values
+    }
+}
+
+/// Lines in the order of the outputs `line.*`: those of a symmetric patch beside the middle twice.
+fn seen(lines: &[Line], symmetric: bool) -> Vec<&Line> {
+    if !symmetric {
+        return lines.iter().collect();
+    }
+    let middle = |line: &&Line| line.layout.ordinate == 0.0;
+    let beside = || lines.iter().filter(move |line| !middle(line));
+    beside().rev().chain(lines.iter().filter(middle)).chain(beside()).collect()
+}
+
+fn strip<'a>(line: &'a Line, outputs: &Outputs, k: usize) -> Strip<'a> {
+    let Traction { edges, .. } = &line.contact.traction;
+    let [low, high] = match (edges.first(), edges.last()) {
+        (Some(first), Some(last)) => [first.low, last.high],
+        _ => [0.0, 0.0],
+    };
+    let of = |values: &[f64]| values.get(k).copied().unwrap_or(0.0);
+    Strip {
+        line,
+        z: of(&outputs.line_position),
+        width: of(&outputs.line_width),
+        centre: 0.5 * (low + high),
+        half_length: 0.5 * (high - low),
+    }
+}
+
+/// Value at a place between ascending points; beyond them that of the last one.
+fn interpolated(points: &[f64], values: &[f64], at: f64) -> f64 {
+    let next = points.partition_point(|point| *point < at);
+    match (next.checked_sub(1), values.get(next)) {
+        (None, first) => first.copied().unwrap_or(0.0),
+        (Some(before), None) => values.get(before).copied().unwrap_or(0.0),
+        (Some(before), Some(after)) => {
+            let share = (at - points[before]) / (points[next] - points[before]);
+            values[before] + share * (after - values[before])
+        }
+    }
+}
