@@ -41,6 +41,8 @@ def on_files(files, config):
 def on_page_markdown(markdown, page, config, files):
     """Formulas of the theory are blocks of text on the forge."""
     markdown = markdown.replace("](../.github/", "](../github/")  # a name that begins with a dot is no part of a site
+    if page.file.src_uri == "docs/bench.md" and BENCH.is_dir():
+        markdown = markdown.replace("`bench/index.html`", "[bench/index.html](../bench/index.html)")
     if page.file.src_uri.startswith("docs/theory/"):
         markdown = re.sub(r"^( *)```text$", r"\1```mathematics", markdown, flags=re.MULTILINE)
     return markdown

@@ -46,6 +46,8 @@ class Bench {
     this.begun = false;
     this.held = new Set();
     this.rail = "dry";
+    // The link that was opened, if it has changes over time.
+    this.script = null;
     // Frames and computing time of the last run of the clock.
     this.measured = { frames: 0, steps: 0, spent: 0, since: 0 };
   }
@@ -66,11 +68,16 @@ class Bench {
 
   // The link of what the controls say.
   wished() {
-    const value = (name) => $(`#${name}`).value;
-    return `patch=${$("input[name=patch]:checked").value}&rail=${this.rail}&speed=${value("speed")}&load=${value("load")}&torque=${value("torque")}`;
+    const value = (name) => $(`#${name}`).value,
+      patch = $("input[name=patch]:checked").value,
+      angle = patch === "line" || value("angle") === "0" ? "" : `&angle=${value("angle")}`;
+    return `patch=${patch}&rail=${this.rail}&speed=${value("speed")}&load=${value("load")}&torque=${value("torque")}${angle}`;
   }
 
+  // Starts a run in the place of the one before. What a link does not say is held as the page says.
   async start(link, quiet = false) {
+    const scripted = link.includes("&at="),
+      hold = $("#hold").checked && !scripted;
     this.stop();
     const { name } = await this.core.ask("basis", { link });
     if (!this.held.has(name) && BENCH_CORE.bases.includes(name)) {
@@ -85,16 +92,18 @@ class Bench {
     this.view.clear();
     this.show(link);
     this.take(frame);
-    if ($("#hold").checked && !link.includes("&at=")) await this.change("hold");
-    if (!quiet) this.say(link.includes("&at=") ? "This link repeats a run: press start." : "Ready. Press start, then lock the wheel.");
+    this.script = scripted ? link : null;
+    if (hold) await this.change("hold");
+    if (!quiet) this.say(scripted ? "This link repeats a run: press start." : "Ready. Press start, then lock the wheel.");
     $("#railhint").textContent = "at the start";
   }
 
   // Controls as the link of a run says.
   show(link) {
+    if (!link.includes("angle=")) $("#angle").value = 0;
     for (const pair of link.split("&")) {
       const [name, value] = pair.split("=");
-      if (["speed", "load", "torque"].includes(name)) $(`#${name}`).value = value;
+      if (["speed", "load", "torque", "angle"].includes(name)) $(`#${name}`).value = value;
       if (name === "patch") $(`input[name=patch][value=${value}]`).checked = true;
       if (name === "rail") this.rail = value;
     }
@@ -102,10 +111,13 @@ class Bench {
   }
 
   tell() {
+    // A line has no width, and no force across.
+    $("#angle").disabled = $("input[name=patch]:checked").value === "line";
     for (const [name, unit] of [
       ["speed", "km/h"],
       ["torque", "kN m"],
       ["load", "kN"],
+      ["angle", "mrad"],
     ])
       $(`#${name}-value`).textContent = `${$(`#${name}`).value} ${unit}`;
     for (const button of document.querySelectorAll("[data-rail]"))
@@ -199,10 +211,11 @@ class Bench {
     this.say(`${shown(speed, 2)} × real time, ${shown(m.spent / m.steps, 2)} ms of computing a step of 1 ms, ${shown((1e3 * m.frames) / (now - m.since), 2)} pictures a second`);
   }
 
-  async restart() {
+  // A new run as the controls say, or the link once more that was opened.
+  async restart(link = this.wished()) {
     const goes = this.running;
     try {
-      await this.start(this.wished());
+      await this.start(link);
       if (goes) this.run();
     } catch (error) {
       this.say(error.message, true);
@@ -279,7 +292,7 @@ const KEYS = {
     bench.advance(1);
   },
   l: (bench) => bench.lock(),
-  r: (bench) => bench.restart(),
+  r: (bench) => bench.restart(bench.script ?? undefined),
   h: () => $("#hold").click(),
   d: (bench) => bench.layRail("dry"),
   w: (bench) => bench.layRail("wet"),
@@ -294,7 +307,7 @@ function wire(bench) {
   const on = (selector, event, f) => $(selector).addEventListener(event, f);
   on("#go", "click", () => bench.toggle());
   on("#lock", "click", () => bench.lock());
-  on("#again", "click", () => bench.restart());
+  on("#again", "click", () => bench.restart(bench.script ?? undefined));
   on("#share", "click", () => bench.share());
   on("#csv", "click", () => bench.csv());
   on("#python", "click", () => bench.python());
@@ -304,8 +317,8 @@ function wire(bench) {
   on("#body", "change", () => bench.view.show(bench.frame));
   for (const radio of document.querySelectorAll("input[name=patch]")) radio.addEventListener("change", () => bench.restart());
   for (const button of document.querySelectorAll("[data-rail]")) button.addEventListener("click", () => bench.layRail(button.dataset.rail));
-  for (const name of ["speed", "torque", "load"]) on(`#${name}`, "input", () => bench.tell());
-  on("#speed", "change", () => bench.restart());
+  for (const name of ["speed", "torque", "load", "angle"]) on(`#${name}`, "input", () => bench.tell());
+  for (const name of ["speed", "angle"]) on(`#${name}`, "change", () => bench.restart());
   for (const name of ["torque", "load"])
     on(`#${name}`, "change", ({ target }) => (bench.begun ? bench.change(`${name}=${target.value}`) : bench.restart()));
   addEventListener("keydown", (event) => {

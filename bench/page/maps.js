@@ -51,7 +51,7 @@ const shown = (value, digits = 3) => {
   return Number(value.toPrecision(digits)).toString().replace("-", "−");
 };
 
-// A map of one quantity. `scale` gives the palette and both ends, or colours by state.
+// A map of one quantity.
 class PatchPicture {
   constructor(canvas) {
     this.canvas = canvas;
@@ -76,28 +76,39 @@ class PatchPicture {
     g.putImageData(image, 0, 0);
   }
 
-  // Draws the cells with axes in millimetres, lengths along and across alike where the place allows it.
-  draw({ x, z, legend }) {
-    const { g, width, height } = pen(this.canvas),
-      left = 40,
-      right = 62,
-      top = 8,
-      bottom = 30,
-      room = [width - left - right, height - top - bottom],
+  // Draws the cells, within an outline, with axes in millimetres: lengths along and across alike. The canvas gets the height
+  // that this takes, within limits.
+  draw({ x, z, outline, legend }) {
+    const [left, right, top, bottom] = [42, 62, 8, 32],
       size = [x[1] - x[0], z[1] - z[0]],
+      wanted = ((this.canvas.clientWidth - left - right) * size[1]) / size[0] + top + bottom,
+      fitting = `${Math.round(Math.max(130, Math.min(wanted, 0.6 * innerHeight)))}px`;
+    if (this.canvas.style.height !== fitting) this.canvas.style.height = fitting;
+    const { g, width, height } = pen(this.canvas),
+      room = [width - left - right, height - top - bottom],
       scale = Math.min(room[0] / size[0], room[1] / size[1]),
       box = [size[0] * scale, size[1] * scale],
       at = [left + (room[0] - box[0]) / 2, top + (room[1] - box[1]) / 2],
       place = (mm, end) => (end ? at[1] + box[1] * (1 - (mm - z[0]) / size[1]) : at[0] + (box[0] * (mm - x[0])) / size[0]);
+    g.save();
+    if (outline.length) {
+      g.beginPath();
+      for (const part of outline) {
+        part.forEach(([along, across], k) => (k ? g.lineTo : g.moveTo).call(g, place(along, 0), place(across, 1)));
+        g.closePath();
+      }
+      g.clip();
+    }
     g.imageSmoothingEnabled = this.cells.height > 1;
     g.drawImage(this.cells, at[0], at[1], box[0], box[1]);
+    g.restore();
     g.strokeStyle = css("--line");
     g.strokeRect(at[0] + 0.5, at[1] + 0.5, box[0] - 1, box[1] - 1);
     g.fillStyle = css("--soft");
     g.textAlign = "center";
     g.textBaseline = "top";
-    for (const mm of ticks(...x, Math.max(2, box[0] / 60))) g.fillText(shown(mm), place(mm, 0), at[1] + box[1] + 4);
-    g.fillText("x [mm], travel →", at[0] + box[0] / 2, at[1] + box[1] + 17);
+    for (const mm of ticks(...x, Math.max(2, box[0] / 45))) g.fillText(shown(mm), place(mm, 0), at[1] + box[1] + 4);
+    g.fillText("x [mm], travel →", at[0] + box[0] / 2, at[1] + box[1] + 18);
     g.textAlign = "right";
     g.textBaseline = "middle";
     for (const mm of ticks(...z, Math.max(2, box[1] / 30))) g.fillText(shown(mm), at[0] - 5, place(mm, 1));
@@ -111,13 +122,15 @@ class PatchPicture {
   }
 }
 
-// A bar of colours with its two ends and the unit.
-function bar(g, x, y, height, colours, low, high, unit) {
-  const steps = colours.length;
-  colours.forEach((c, k) => {
-    g.fillStyle = `rgb(${c.join()})`;
-    g.fillRect(x, y + 14 + ((height - 14) * (steps - 1 - k)) / steps, 10, (height - 14) / steps + 1);
-  });
+// Bars of colours side by side, with both ends and the unit.
+function bar(g, x, y, height, bars, low, high, unit) {
+  const room = height - 14;
+  bars.forEach((colours, b) =>
+    colours.forEach((c, k) => {
+      g.fillStyle = `rgb(${c.join()})`;
+      g.fillRect(x + (10 * b) / bars.length, y + 14 + (room * (colours.length - 1 - k)) / colours.length, 10 / bars.length, room / colours.length + 1);
+    }),
+  );
   g.fillStyle = css("--soft");
   g.textAlign = "left";
   g.textBaseline = "top";

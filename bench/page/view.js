@@ -20,6 +20,7 @@ class Frame {
     }));
     this.map = { ...map };
     for (const name of map.quantities) this.map[name] = take(map.along * map.across);
+    for (const name of map.outline) this.map[name] = take(map.across);
     this.depth = {};
     for (const name of depth.quantities) this.depth[name] = take(depth.points);
   }
@@ -34,12 +35,24 @@ const TILES = [
   ["time", "s", 3, (f) => f.get("time"), 3],
   ["speed", "km/h", 1, (f) => 3.6 * f.get("wheel.velocity")],
   ["creepage", "%", 2, (f) => 100 * f.get("contact.creepage")],
-  ["brake force at the rail", "kN", 2, (f) => -1e-3 * f.get("contact.force_x")],
+  ["brake force", "kN", 2, (f) => -1e-3 * f.get("contact.force_x")],
   ["friction in use", "%", 0, (f) => 100 * f.get("contact.utilisation")],
   ["part that sticks", "%", 0, (f) => 100 * f.get("contact.stick_fraction")],
   ["largest pressure", "MPa", 0, (f) => 1e-6 * f.get("contact.pressure_max")],
   ["hottest place", "°C", 0, (f) => Math.max(f.get("temperature.wheel_max"), f.get("temperature.rail_max")) - KELVIN],
 ];
+
+// Stick and slip, beyond the patch that of its nearest place in the row: colours run on to the outline.
+function spread({ along, across, state }) {
+  const found = state.slice();
+  for (let row = 0; row < across; row++) {
+    const first = row * along;
+    for (let k = first + 1; k < first + along; k++) if (!found[k]) found[k] = found[k - 1];
+    for (let k = first + along - 2; k >= first; k--) if (!found[k]) found[k] = found[k + 1];
+    if (!found[first]) found.fill(1, first, first + along);
+  }
+  return found;
+}
 
 class View {
   constructor() {
@@ -105,30 +118,48 @@ class View {
     const { along, across } = map,
       x = [1e3 * values.x_low, 1e3 * values.x_high],
       z = [1e3 * values.z_low, 1e3 * values.z_high],
-      ends = { x, z },
+      outline = across > 1 ? this.outline(map, z) : [],
       step = (share) => Math.max(0, Math.min(255, Math.round(255 * share))),
+      some = (colours) => colours.filter((_, k) => k % 8 === 0),
       pressure = 1e-6 * this.largest("pressure", map.pressure) || 1,
-      shear = 1e-6 * this.largest("shear", map.shear.map(Math.abs)) || 1,
-      clear = [0, 0, 0, 0];
-    this.maps.pressure.paint(along, across, (k) => (map.state[k] ? PALETTES.viridis[step((1e-6 * map.pressure[k]) / pressure)] : clear));
-    this.maps.pressure.draw({ ...ends, legend: (g, a, b, h) => bar(g, a, b, h, PALETTES.viridis.filter((_, k) => k % 8 === 0), 0, pressure, "MPa") });
-    const tint = this.tints();
-    this.maps.shear.paint(along, across, (k) =>
-      map.state[k] ? tint[map.state[k]][step((1e-6 * Math.abs(map.shear[k])) / shear)] : clear,
-    );
-    this.maps.shear.draw({
-      ...ends,
-      legend: (g, a, b, h) => {
-        bar(g, a, b, h, tint[2].filter((_, k) => k % 8 === 0), 0, shear, "MPa");
-        bar(g, a - 5, b, h, tint[1].filter((_, k) => k % 8 === 0), NaN, NaN, "");
-      },
-    });
+      shears = map.shear.map((along, k) => Math.hypot(along, map.shear_z[k])),
+      shear = 1e-6 * this.largest("shear", shears) || 1,
+      clear = [0, 0, 0, 0],
+      inside = (k) => across > 1 || map.state[k];
+    const { pressure: ofPressure, shear: ofShear, temperature: ofHeat } = this.maps;
+    ofPressure.paint(along, across, (k) => (inside(k) ? PALETTES.viridis[step((1e-6 * map.pressure[k]) / pressure)] : clear));
+    ofPressure.draw({ x, z, outline, legend: (g, a, b, h) => bar(g, a, b, h, [some(PALETTES.viridis)], 0, pressure, "MPa") });
+    const tint = this.tints(),
+      state = spread(map);
+    ofShear.paint(along, across, (k) => (inside(k) ? tint[state[k]][step((1e-6 * shears[k]) / shear)] : clear));
+    ofShear.draw({ x, z, outline, legend: (g, a, b, h) => bar(g, a, b, h, [some(tint[1]), some(tint[2])], 0, shear, "MPa") });
     const body = $("#body").value,
       heat = map[body],
       low = Math.min(...heat) - KELVIN,
       high = Math.max(this.largest(body, heat) - KELVIN, low + 10);
-    this.maps.temperature.paint(along, across, (k) => PALETTES.inferno[step((heat[k] - KELVIN - low) / (high - low))]);
-    this.maps.temperature.draw({ ...ends, legend: (g, a, b, h) => bar(g, a, b, h, PALETTES.inferno.filter((_, k) => k % 8 === 0), low, high, "°C") });
+    ofHeat.paint(along, across, (k) => PALETTES.inferno[step((heat[k] - KELVIN - low) / (high - low))]);
+    ofHeat.draw({ x, z, outline: [], legend: (g, a, b, h) => bar(g, a, b, h, [some(PALETTES.inferno)], low, high, "°C") });
+  }
+
+  // Polygons around the patch [mm], one for each of its parts.
+  outline({ across, rear, front }, z) {
+    const half = (z[1] - z[0]) / across / 2,
+      height = (row) => z[0] + (2 * row + 1) * half,
+      found = [];
+    let part = null;
+    for (let row = 0; row <= across; row++) {
+      const touches = row < across && front[row] > rear[row],
+        last = row - 1;
+      if (touches && !part) found.push((part = [[500 * (rear[row] + front[row]), height(row) - half]]));
+      if (touches) {
+        part.push([1e3 * front[row], height(row)]);
+        part.unshift([1e3 * rear[row], height(row)]);
+      } else if (part) {
+        part.push([500 * (rear[last] + front[last]), height(last) + half]);
+        part = null;
+      }
+    }
+    return found;
   }
 
   // Shades of stick and slip, made anew when the theme changes.

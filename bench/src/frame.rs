@@ -9,24 +9,13 @@ use serde_json::{Value, json};
 use wheelrail::simulation::PROFILE_POINTS;
 
 /// Numbers that are not in the table of the run, in this order, after those that are.
-const STATUS: [&str; 11] = [
-    "time",
-    "torque_set",
-    "load_set",
-    "locked",
-    "held",
-    "angle",
-    "stretches",
-    "x_low",
-    "x_high",
-    "z_low",
-    "z_high",
-];
+const STATUS: [&str; 11] =
+    ["time", "torque_set", "load_set", "locked", "held", "angle", "stretches", "x_low", "x_high", "z_low", "z_high"];
 /// Most stretches of rail in a frame, the one under the wheel included.
 const STRETCHES: usize = 4;
 /// Places of the patch along the rail, and across it where it is not of constant width.
 const ALONG: usize = 121;
-const ACROSS: usize = 41;
+const ACROSS: usize = 61;
 /// Room around the patch, over its half-length and width \[1].
 const ROOM: [f64; 2] = [0.35, 0.05];
 
@@ -47,9 +36,12 @@ pub fn grid(patch: Patch) -> GridSize {
 /// Description of a frame, of the inputs and of the conditions, as JSON.
 pub fn description(patch: Patch) -> Value {
     let GridSize { along, across } = grid(patch);
-    let columns: Vec<_> = record::columns().iter().map(|(row, _)| json!({"name": row.name, "text": row.text})).collect();
-    let inputs: Vec<_> =
-        NUMBERS.iter().map(|(name, unit, low, high)| json!({"name": name, "unit": unit, "low": low, "high": high})).collect();
+    let columns: Vec<_> =
+        record::columns().iter().map(|(row, _)| json!({"name": row.name, "text": row.text})).collect();
+    let inputs: Vec<_> = NUMBERS
+        .iter()
+        .map(|(name, unit, low, high)| json!({"name": name, "unit": unit, "low": low, "high": high}))
+        .collect();
     json!({
         "step_ms": STEP_MS,
         "columns": columns,
@@ -58,13 +50,13 @@ pub fn description(patch: Patch) -> Value {
         "conditions": Condition::ALL.map(Condition::name),
         "patches": Patch::ALL.map(Patch::name),
         "inputs": inputs,
-        "map": {"along": along, "across": across, "quantities": QUANTITIES},
+        "map": {"along": along, "across": across, "quantities": QUANTITIES, "outline": ["rear", "front"]},
         "depth": {"points": PROFILE_POINTS, "quantities": ["depth", "wheel", "rail"]},
     })
 }
 
 /// Appends the frame of a run: the columns of its table, [`STATUS`], stretches of rail as pairs of the distance from the
-/// wheel \[m] and the number of the condition, the map of the patch, and the temperatures over the depth.
+/// wheel \[m] and the number of the condition, the map of the patch and its outline, and the temperatures over the depth.
 pub fn fill(run: &mut Run, window: &mut Window, out: &mut Vec<f64>) {
     let outputs = run.outputs().clone();
     out.extend(record::columns().iter().map(|(_, read)| read(&outputs)));
@@ -95,6 +87,7 @@ pub fn fill(run: &mut Run, window: &mut Window, out: &mut Vec<f64>) {
         out.extend([(begin - outputs.wheel_distance).max(-1e9), number as f64]);
     }
     map.fill(grid(patch), [x, window.z], out);
+    map.outline(grid(patch).across, window.z, out);
     out.extend(outputs.profile_depth.iter().chain(&outputs.profile_wheel_below).chain(&outputs.profile_rail_below));
 }
 

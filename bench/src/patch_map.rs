@@ -1,4 +1,4 @@
-//! The patch from above: pressure, shear, slip and temperatures on a regular grid of x, along the rail, and z, across.
+//! The patch from above: pressure, shear along and across, slip along and temperatures on a regular grid of x, along the rail, and z, across.
 //!
 //! A patch is computed on lines side by side. Between two of them the square of the half-length is linear in z, or of a
 //! symmetric patch in z², and falls to zero at the edge: the outline of an ellipse is exact. Values are taken at the
@@ -24,7 +24,10 @@ pub struct GridSize {
 }
 
 /// Quantities on the grid, in this order, one after the other; each row by row, x ascending in a row.
-pub const QUANTITIES: [&str; 6] = ["pressure", "shear", "slip", "state", "temperature_wheel", "temperature_rail"];
+pub const QUANTITIES: [&str; 7] =
+    ["pressure", "shear", "shear_z", "slip", "state", "temperature_wheel", "temperature_rail"];
+/// Number of `state` among them.
+pub const STATE: usize = 4;
 /// Values of `state`: nothing touches, the surfaces stick, they slip.
 pub const STATES: [f64; 3] = [0.0, 1.0, 2.0];
 
@@ -94,12 +97,21 @@ impl<'a> PatchMap<'a> {
         [self.groups.first().map_or(0.0, |group| group.low), self.groups.last().map_or(0.0, |group| group.high)]
     }
 
+    /// Appends both ends of the patch along the rail \[m] at the middle of each row of a grid across `z` \[m]: the rear ones,
+    /// then the front ones. They are equal where nothing touches.
+    pub fn outline(&self, rows: usize, z: [f64; 2], out: &mut Vec<f64>) {
+        let places: Vec<_> = (0..rows).map(|row| self.place(middle(z, row, rows))).collect();
+        for side in [-1.0, 1.0] {
+            let end = |place: &Place| place.centre + side * place.half_length;
+            out.extend(places.iter().map(|place| place.as_ref().map_or(0.0, end)));
+        }
+    }
+
     /// Appends the values of all [`QUANTITIES`] on a grid whose cells fill `x` and `z` \[m], at the middle of each.
     pub fn fill(&self, size: GridSize, [x, z]: [[f64; 2]; 2], out: &mut Vec<f64>) {
         let first = out.len();
         let cells = size.along * size.across;
         out.resize(first + QUANTITIES.len() * cells, 0.0);
-        let middle = |[low, high]: [f64; 2], k: usize, n: usize| low + (high - low) * (k as f64 + 0.5) / n as f64;
         for row in 0..size.across {
             let place = self.place(middle(z, row, size.across));
             for column in 0..size.along {
@@ -151,7 +163,7 @@ impl<'a> PatchMap<'a> {
     }
 
     fn values(&self, place: Option<&Place>, x: f64) -> [f64; QUANTITIES.len()] {
-        let mut values = [0.0, 0.0, 0.0, STATES[0], self.reference, self.reference];
+        let mut values = [0.0, 0.0, 0.0, 0.0, STATES[0], self.reference, self.reference];
         let Some(Place { lines, centre, half_length, fading }) = place else { return values };
         let (from_centre, mut slips) = (x - centre, 0.0);
         let inside = from_centre.abs() <= *half_length;
@@ -166,21 +178,27 @@ impl<'a> PatchMap<'a> {
                 let scale = weight * half_length / strip.half_length;
                 values[0] += scale * traction.pressure.at(at);
                 values[1] += scale * traction.shear.at(at);
-                let slip = traction.slip.at(at);
-                values[2] += weight * slip;
-                slips += weight * f64::from(u8::from(slip.abs() > STICKS));
+                values[2] += scale * traction.lateral_shear.at(at);
+                let [along, aside] = [traction.slip.at(at), traction.lateral_slip.at(at)];
+                values[3] += weight * along;
+                slips += weight * f64::from(u8::from(along.abs().max(aside.abs()) > STICKS));
             }
             if let Some(thermal) = &strip.line.thermal {
                 for (body, surface) in thermal.surface.iter().enumerate() {
-                    values[4 + body] += fading * weight * interpolated(self.points, surface, at);
+                    values[STATE + 1 + body] += fading * weight * interpolated(self.points, surface, at);
                 }
             }
         }
         if values[0] > 0.0 {
-            values[3] = if slips > 0.5 { STATES[2] } else { STATES[1] };
+            values[STATE] = if slips > 0.5 { STATES[2] } else { STATES[1] };
         }
         values
     }
+}
+
+/// Middle of the cell `k` of `n` that fill an interval.
+fn middle([low, high]: [f64; 2], k: usize, n: usize) -> f64 {
+    low + (high - low) * (k as f64 + 0.5) / n as f64
 }
 
 /// Lines in the order of the outputs `line.*`: those of a symmetric patch beside the middle twice.

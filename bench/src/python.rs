@@ -19,6 +19,14 @@ pub fn program(run: &Run) -> Result<String, String> {
     let outputs = COLUMNS.map(|name| format!("    \"{name}\",\n")).concat();
     let (link, patch, velocity) = (run.link(), settings.patch.preset_name(), settings.speed / 3.6);
     let (load, steps) = (1e3 * settings.load, run.steps());
+    let (mut sideways, mut inputs, mut turned) = (String::new(), format!("\"drive.load\": {load}"), String::new());
+    if settings.angle != 0.0 {
+        let angle = 1e-3 * settings.angle;
+        sideways = "    \"contact.lateral\": True,\n".to_owned();
+        inputs += &format!(", \"drive.lateral_velocity\": {}", angle * velocity);
+        turned =
+            format!("        wheel.set({{\"drive.lateral_velocity\": {angle} * wheel.get(\"wheel.velocity\")}})\n");
+    }
     Ok(format!(
         r#""""A run of the bench: #{link}"""
 
@@ -32,8 +40,8 @@ PARAMETERS = {{
     "friction.falling_decay": {},
     "friction.softening": {},
     "friction.memory_length": {},
-}}
-INPUTS = {{"drive.load": {load}}}
+{sideways}}}
+INPUTS = {{{inputs}}}
 # Before the step of this number
 CHANGES = {{
 {changes}}}
@@ -46,7 +54,7 @@ with Fmu() as fmu, Wheel(fmu, PARAMETERS, INPUTS) as wheel:
     print(0.0, *wheel.get(*OUTPUTS), sep=",")
     for step in range(STEPS):
         wheel.set(CHANGES.get(step, {{}}))
-        wheel.step(STEP)
+{turned}        wheel.step(STEP)
         print(wheel.time, *wheel.get(*OUTPUTS), sep=",")
 "#,
         friction.coefficient, tuning.falling_ratio, tuning.falling_decay, tuning.softening, tuning.memory_length

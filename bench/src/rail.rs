@@ -109,7 +109,10 @@ mod tests {
     fn a_stretch_comes_when_the_wheel_has_travelled_to_it_and_replaces_what_was_laid_farther_ahead() {
         let mut track = Track::uniform(Condition::Wet);
         track.lay(10.0, Condition::Leaves);
-        assert_eq!([track.at(14.9), track.at(15.0), track.at(1e6)], [Condition::Wet, Condition::Leaves, Condition::Leaves]);
+        assert_eq!(
+            [track.at(14.9), track.at(15.0), track.at(1e6)],
+            [Condition::Wet, Condition::Leaves, Condition::Leaves]
+        );
         track.lay(9.0, Condition::Dry);
         assert_eq!([track.at(13.9), track.at(14.0), track.at(1e6)], [Condition::Wet, Condition::Dry, Condition::Dry]);
         assert_eq!(track.beyond(20.0), [(14.0, Condition::Dry)]);

@@ -3,7 +3,7 @@
 use wheelrail::simulation::{OutputRow, Outputs, Read};
 
 /// Outputs that the page shows and the CSV holds, by their names in the FMU.
-pub const COLUMNS: [&str; 32] = [
+pub const COLUMNS: [&str; 34] = [
     "wheel.velocity",
     "wheel.omega",
     "wheel.distance",
@@ -11,6 +11,8 @@ pub const COLUMNS: [&str; 32] = [
     "contact.slip_velocity",
     "contact.force_x",
     "contact.force_y",
+    "contact.force_z",
+    "contact.lateral_creepage",
     "contact.friction",
     "contact.utilisation",
     "contact.stick_fraction",

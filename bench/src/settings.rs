@@ -61,8 +61,12 @@ const MOST_CHANGES: usize = 1000;
 pub const STEP_MS: f64 = 1.0;
 
 /// Inputs that are numbers: name in links, unit, smallest and largest value.
-pub const NUMBERS: [(&str, &str, f64, f64); 3] =
-    [("speed", "km/h", 1.0, 250.0), ("load", "kN", 20.0, 200.0), ("torque", "kN m", 0.0, 60.0)];
+pub const NUMBERS: [(&str, &str, f64, f64); 4] = [
+    ("speed", "km/h", 1.0, 250.0),
+    ("load", "kN", 20.0, 200.0),
+    ("torque", "kN m", 0.0, 60.0),
+    ("angle", "mrad", -20.0, 20.0),
+];
 
 /// Everything that decides about a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,13 +81,16 @@ pub struct Settings {
     pub load: f64,
     /// Torque of the brake from the first step on [kN m].
     pub torque: f64,
+    /// Angle of attack, to the right positive \[mrad]; 0 on a line, which has no width.
+    pub angle: f64,
     /// Changes after the start, in order of their time: number of steps done before them, and what changes.
     pub changes: Vec<(u32, Change)>,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { patch: Patch::Line, rail: Condition::Dry, speed: 100.0, load: 100.0, torque: 2.0, changes: Vec::new() }
+        let (patch, rail, changes) = (Patch::Line, Condition::Dry, Vec::new());
+        Self { patch, rail, speed: 100.0, load: 100.0, torque: 2.0, angle: 0.0, changes }
     }
 }
 
@@ -91,7 +98,7 @@ impl Default for Settings {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LinkError {
     /// A part that is no pair of a known name and a value.
-    #[error("the link says \"{part}\", which is none of patch=, rail=, speed=, load=, torque= and at=")]
+    #[error("the link says \"{part}\", which is none of patch=, rail=, speed=, load=, torque=, angle= and at=")]
     Part {
         /// The part.
         part: String,
@@ -158,9 +165,17 @@ impl Settings {
                 "speed" => settings.speed = number(name, value)?,
                 "load" => settings.load = number(name, value)?,
                 "torque" => settings.torque = number(name, value)?,
+                "angle" => settings.angle = number(name, value)?,
                 "at" => settings.add(value)?,
                 _ => return Err(LinkError::Part { part: part.into() }),
             }
+        }
+        if settings.patch == Patch::Line && settings.angle != 0.0 {
+            return Err(LinkError::value(
+                "angle",
+                &settings.angle.to_string(),
+                "0 with patch=line, which has no width",
+            ));
         }
         Ok(settings)
     }
@@ -193,6 +208,7 @@ impl Settings {
         if self.patch == Patch::S1002 {
             config.contact.rows = ROWS.to_owned();
         }
+        config.contact.lateral = self.angle != 0.0;
         config.initial.velocity = self.speed / 3.6;
         Ok(config)
     }
@@ -201,9 +217,12 @@ impl Settings {
 impl fmt::Display for Settings {
     /// The link that [`Settings::from_link`] reads.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { patch, rail, speed, load, torque, changes } = self;
+        let Self { patch, rail, speed, load, torque, angle, changes } = self;
         let (patch, rail) = (patch.name(), rail.name());
         write!(f, "patch={patch}&rail={rail}&speed={speed}&load={load}&torque={torque}")?;
+        if *angle != 0.0 {
+            write!(f, "&angle={angle}")?;
+        }
         changes.iter().try_for_each(|(time, change)| write!(f, "&at={time}:{change}"))
     }
 }
@@ -224,7 +243,9 @@ mod tests {
             (1301, Change::Coast),
         ];
         for patch in Patch::ALL {
-            let run = Settings { patch, rail: Condition::Wet, speed: 61.7, load: 99.0, torque: 0.0, changes: changes.clone() };
+            let angle = if patch == Patch::Line { 0.0 } else { -7.3 };
+            let (rail, changes) = (Condition::Wet, changes.clone());
+            let run = Settings { patch, rail, speed: 61.7, load: 99.0, torque: 0.0, angle, changes };
             let link = run.to_string();
             assert_eq!(Settings::from_link(&link), Ok(run.clone()), "{link}");
             assert_eq!(Settings::from_link(&format!("#{link}")), Ok(run));
@@ -242,6 +263,7 @@ mod tests {
         }
         assert!(said("colour=red").contains("colour=red") && said("lock").contains("\"lock\""));
         assert!(said("at=5:jump").contains("lock, release") && said("at=-5:lock").contains("milliseconds"));
+        assert!(said("angle=3").contains("patch=line") && said("patch=ellipse&angle=99").contains("-20 to 20 mrad"));
         assert!(said("at=5:load=1000").contains("20 to 200 kN"));
         assert!(said("at=5:lock&at=4:release").contains("at=5 before at=4"));
         let long = "at=1:lock&".repeat(MOST_CHANGES + 1);

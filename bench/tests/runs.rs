@@ -3,7 +3,7 @@
 
 use bench::bench::{Bench, Reply};
 use bench::frame;
-use bench::patch_map::{GridSize, PatchMap, QUANTITIES, STATES};
+use bench::patch_map::{GridSize, PatchMap, QUANTITIES, STATE, STATES};
 use bench::rail::{AHEAD, Condition};
 use bench::record::COLUMNS;
 use bench::run::{Run, STEP};
@@ -118,7 +118,8 @@ fn the_picture_of_the_patch_carries_load_and_brake_force() {
         let (state, outputs) = (bench.simulation().state().clone(), bench.outputs().clone());
         let map = PatchMap::new(&state, &outputs, constant, 293.15);
         let [low, high] = map.ends();
-        let (size, x) = (GridSize { along: 400, across: if constant { 1 } else { 200 } }, 1.2 * outputs.contact_half_width);
+        let (size, x) =
+            (GridSize { along: 400, across: if constant { 1 } else { 200 } }, 1.2 * outputs.contact_half_width);
         let mut values = Vec::new();
         map.fill(size, [[-x, x], [low, high]], &mut values);
         let cells = size.along * size.across;
@@ -127,8 +128,8 @@ fn the_picture_of_the_patch_carries_load_and_brake_force() {
         let found = [force(0) / outputs.contact_force_y - 1.0, force(1) / outputs.contact_force_x - 1.0];
         println!("{patch:?}: load and brake force of the picture are off by {:.1e} and {:.1e}", found[0], found[1]);
         assert!(found.iter().all(|off| off.abs() < bound), "{found:?}");
-        let sticks = values[3 * cells..][..cells].iter().filter(|state| **state == STATES[1]).count() as f64;
-        let touches = values[3 * cells..][..cells].iter().filter(|state| **state != STATES[0]).count() as f64;
+        let sticks = values[STATE * cells..][..cells].iter().filter(|state| **state == STATES[1]).count() as f64;
+        let touches = values[STATE * cells..][..cells].iter().filter(|state| **state != STATES[0]).count() as f64;
         println!("sticks on {:.3}, {:.3} by the output", sticks / touches, outputs.contact_stick_fraction);
         assert!((sticks / touches - outputs.contact_stick_fraction).abs() < 0.05);
     }
@@ -154,6 +155,29 @@ fn the_picture_of_an_ellipse_has_the_pressure_of_hertz() {
     }
     println!("largest difference from Hertz: {worst:.1e} of the peak");
     assert!(worst < 0.05, "{worst}");
+    let mut ends = Vec::new();
+    map.outline(size.across, [-b, b], &mut ends);
+    for (row, [rear, front]) in (0..size.across).map(|row| (row, [ends[row], ends[size.across + row]])) {
+        let exact = a * (1.0 - (2.0 * (row as f64 + 0.5) / size.across as f64 - 1.0).powi(2)).sqrt();
+        assert!((front - exact).abs() < 0.02 * a && (rear + exact).abs() < 0.02 * a, "{rear} {front} {exact}");
+    }
+}
+
+#[test]
+fn a_wheel_with_an_angle_of_attack_is_pushed_to_the_side_and_the_picture_carries_that_force() {
+    let mut bench = run("patch=ellipse&torque=2&angle=5");
+    steps(&mut bench, 30);
+    let (state, outputs) = (bench.simulation().state().clone(), bench.outputs().clone());
+    assert!((outputs.contact_lateral_creepage - 5e-3).abs() < 1e-4, "{}", outputs.contact_lateral_creepage);
+    assert!(outputs.contact_force_z < -5e3, "it slides to the right: {} N", outputs.contact_force_z);
+    let map = PatchMap::new(&state, &outputs, false, 293.15);
+    let ([low, high], x) = (map.ends(), 1.1 * outputs.contact_half_width);
+    let (size, mut values) = (GridSize { along: 200, across: 200 }, Vec::new());
+    map.fill(size, [[-x, x], [low, high]], &mut values);
+    let cells = size.along * size.across;
+    let force = 2.0 * x * (high - low) / cells as f64 * values[2 * cells..][..cells].iter().sum::<f64>();
+    println!("lateral force of the picture is off by {:.1e}", force / outputs.contact_force_z - 1.0);
+    assert!((force / outputs.contact_force_z - 1.0).abs() < 0.01);
 }
 
 #[test]
@@ -170,6 +194,7 @@ fn a_frame_is_as_long_as_its_description_says_and_its_columns_are_those_of_the_t
             + length("/status")
             + 2 * count("/stretches")
             + length("/map/quantities") * count("/map/along") * count("/map/across")
+            + length("/map/outline") * count("/map/across")
             + length("/depth/quantities") * count("/depth/points");
         bench.step(3).unwrap();
         let Ok(Reply::Numbers(numbers)) = bench.frame() else { panic!() };
