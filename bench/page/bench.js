@@ -46,6 +46,8 @@ class Bench {
     this.begun = false;
     this.held = new Set();
     this.rail = "dry";
+    // Torque and load of the last frame.
+    this.set = {};
     // The link that was opened, if it has changes over time.
     this.script = null;
     // Frames and computing time of the last run of the clock.
@@ -138,6 +140,15 @@ class Bench {
     $("#lock").setAttribute("aria-pressed", String(locked));
     $("#lock").textContent = locked ? "release the wheel" : "lock the wheel";
     $("#hold").checked = frame.get("held") === 1;
+    // Sliders follow a link, and are left alone while somebody moves them.
+    for (const name of ["torque", "load"]) {
+      const value = 1e-3 * frame.get(`${name}_set`);
+      if (value !== this.set[name]) {
+        this.set[name] = value;
+        $(`#${name}`).value = value;
+        this.tell();
+      }
+    }
     const last = frame.stretches[frame.stretches.length - 1];
     if (last && last.condition !== this.rail) {
       this.rail = last.condition;

@@ -11,7 +11,7 @@ class Frame {
     let at = 0;
     const take = (n) => numbers.subarray(at, (at += n));
     this.values = {};
-    for (const { name } of columns) this.values[name] = numbers[at++];
+    for (const name of columns) this.values[name] = numbers[at++];
     for (const name of status) this.values[name] = numbers[at++];
     const pairs = take(2 * stretches);
     this.stretches = Array.from({ length: this.values.stretches }, (_, k) => ({
@@ -212,18 +212,22 @@ class View {
 
   showEnergy({ values: v }) {
     const e = (name) => 1e-3 * v[`energy.${name}`],
-      outside = e("hub_work") + e("brake") + e("gravity") + e("rail_work"),
-      rows = [
+      given = [
         ["given by the motion", -e("stored"), "motion"],
-        ...(Math.abs(outside) > 1e-3 ? [["given from outside: the force that holds the speed", outside, "motion"]] : []),
+        ["given by what holds the speed", e("hub_work") + e("brake") + e("gravity") + e("rail_work"), "motion"],
+        ["given by heat, which swells the steel", e("thermal_work"), "motion"],
+      ],
+      taken = [
         ["taken by the brake", e("brake"), "brake"],
         ["friction in the patch, into heat", e("friction"), "friction"],
-        ["damping, of the steel and into the rail", e("damping"), "damping"],
-        ["flattening of the steel", e("plastic") - e("thermal_work"), "plastic"],
+        ["damping, of the steel and into the rail", e("damping"), "none"],
+        ["flattening of the steel", e("plastic"), "none"],
       ],
-      taken = rows.filter(([, , kind]) => kind !== "motion").reduce((sum, [, value]) => sum + value, 0),
-      given = rows.filter(([, , kind]) => kind === "motion").reduce((sum, [, value]) => sum + value, 0);
-    rows.push(["unaccounted for", given - taken, "none"]);
+      sum = (rows) => rows.reduce((total, [, value]) => total + value, 0),
+      all = Math.max(...[...given, ...taken].map(([, value]) => Math.abs(value)), 1e-3),
+      // What has given next to nothing has no row, but counts.
+      rows = [...given.filter(([, value], k) => k === 0 || Math.abs(value) > 1e-2 * all), ...taken];
+    rows.push(["unaccounted for", sum(given) - sum(taken), "none"]);
     const most = Math.max(...rows.map(([, value]) => Math.abs(value)), 1e-3);
     if ($("#energy").rows.length !== rows.length)
       $("#energy").replaceChildren(

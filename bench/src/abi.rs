@@ -112,7 +112,7 @@ pub extern "C" fn bench_python() -> u32 {
     reply(|bench| bench.text(crate::python::program))
 }
 
-/// Lets [`bench_output`] tell where the code gave up, for a module whose panics end it without a word.
+/// Lets [`bench_failure`] tell where the code gave up, for a module whose panics end it without a word.
 // SAFETY: the only function of this name in a library of this package.
 #[unsafe(no_mangle)]
 pub extern "C" fn bench_explain_failures() {
@@ -124,14 +124,14 @@ pub extern "C" fn bench_explain_failures() {
 
 static FAILURE: Mutex<String> = Mutex::new(String::new());
 
-/// Puts out, after a failure, where the code gave up: address and length of a text, one after the other.
+/// Address of the text that tells where the code gave up; empty while it has not.
 // SAFETY: the only function of this name in a library of this package.
 #[unsafe(no_mangle)]
 pub extern "C" fn bench_failure() -> *const u8 {
     FAILURE.lock().unwrap_or_else(PoisonError::into_inner).as_ptr()
 }
 
-/// Length of the text about a failure \[bytes].
+/// Its length \[bytes].
 // SAFETY: the only function of this name in a library of this package.
 #[unsafe(no_mangle)]
 pub extern "C" fn bench_failure_length() -> usize {

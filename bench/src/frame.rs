@@ -2,9 +2,9 @@
 
 use crate::patch_map::{GridSize, PatchMap, QUANTITIES};
 use crate::rail::Condition;
-use crate::record;
+use crate::record::{self, COLUMNS};
 use crate::run::Run;
-use crate::settings::{NUMBERS, Patch, STEP_MS};
+use crate::settings::Patch;
 use serde_json::{Value, json};
 use wheelrail::simulation::PROFILE_POINTS;
 
@@ -33,23 +33,14 @@ pub fn grid(patch: Patch) -> GridSize {
     GridSize { along: ALONG, across: if patch == Patch::Line { 1 } else { ACROSS } }
 }
 
-/// Description of a frame, of the inputs and of the conditions, as JSON.
+/// Description of a frame as JSON.
 pub fn description(patch: Patch) -> Value {
     let GridSize { along, across } = grid(patch);
-    let columns: Vec<_> =
-        record::columns().iter().map(|(row, _)| json!({"name": row.name, "text": row.text})).collect();
-    let inputs: Vec<_> = NUMBERS
-        .iter()
-        .map(|(name, unit, low, high)| json!({"name": name, "unit": unit, "low": low, "high": high}))
-        .collect();
     json!({
-        "step_ms": STEP_MS,
-        "columns": columns,
+        "columns": COLUMNS.as_slice(),
         "status": STATUS,
         "stretches": STRETCHES,
         "conditions": Condition::ALL.map(Condition::name),
-        "patches": Patch::ALL.map(Patch::name),
-        "inputs": inputs,
         "map": {"along": along, "across": across, "quantities": QUANTITIES, "outline": ["rear", "front"]},
         "depth": {"points": PROFILE_POINTS, "quantities": ["depth", "wheel", "rail"]},
     })
