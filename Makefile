@@ -295,9 +295,8 @@ $(COACH): $(BUILT) $(shell find coach -type f)
 	$(RELEASE_CARGO) build --release --locked -p wheelrail -p wheelrail-coach
 	touch $@
 
-# Together with the product, too.
 $(BENCH): $(BUILT) bench/Cargo.toml $(shell find bench/src -type f)
-	$(RELEASE_CARGO) build --release --locked -p wheelrail -p wheelrail-bench
+	$(RELEASE_CARGO) build --release --locked -p wheelrail-bench
 	touch $@
 
 $(BENCH_WASM): $(BUILT) bench/build packaging/rustc-wrapper bench/Cargo.toml $(shell find bench/src -type f)

@@ -5,7 +5,6 @@
 //! same share of the half-length. Pressure and shear are proportional to it besides, so that of an ellipse Hertz's
 //! pressure is exact; slip and temperature are linear.
 
-use wheelrail::contact::Traction;
 use wheelrail::rolling::{Line, State};
 use wheelrail::simulation::Outputs;
 
@@ -38,7 +37,7 @@ struct Strip<'a> {
     z: f64,
     /// Width \[m].
     width: f64,
-    /// Middle and half-length of its contact \[m].
+    /// Middle and half-length of all on which forces act \[m].
     centre: f64,
     half_length: f64,
 }
@@ -212,18 +211,15 @@ fn seen(lines: &[Line], symmetric: bool) -> Vec<&Line> {
 }
 
 fn strip<'a>(line: &'a Line, outputs: &Outputs, k: usize) -> Strip<'a> {
-    let Traction { edges, .. } = &line.contact.traction;
-    let [low, high] = match (edges.first(), edges.last()) {
-        (Some(first), Some(last)) => [first.low, last.high],
-        _ => [0.0, 0.0],
-    };
+    let extent = line.contact.traction.extent();
+    let (centre, half_length) = extent.map_or((0.0, 0.0), |extent| (extent.middle(), extent.half_length()));
     let of = |values: &[f64]| values.get(k).copied().unwrap_or(0.0);
     Strip {
         line,
         z: of(&outputs.line_position),
         width: of(&outputs.line_width),
-        centre: 0.5 * (low + high),
-        half_length: 0.5 * (high - low),
+        centre,
+        half_length,
     }
 }
 
