@@ -179,7 +179,9 @@ class View {
       x = Array.from({ length: along }, (_, k) => 1e3 * (values.x_low + ((values.x_high - values.x_low) * (k + 0.5)) / along)),
       pressure = row("pressure", 1e-6),
       limit = pressure.map((p) => p * values["contact.friction"]),
-      shear = row("shear", 1e-6),
+      aside = row("shear_z", 1e-6),
+      // Of a wheel that slides to the side, too, the amount.
+      shear = row("shear", 1e-6).map((v, k) => Math.sign(v) * Math.hypot(v, aside[k])),
       part = (state) => shear.map((v, k) => (map.state[first + k] === state ? v : NaN)),
       sign = values["contact.force_x"] > 0 ? 1 : -1;
     this.along.draw(
@@ -214,7 +216,7 @@ class View {
     const e = (name) => 1e-3 * v[`energy.${name}`],
       given = [
         ["given by the motion", -e("stored"), "motion"],
-        ["given by what holds the speed", e("hub_work") + e("brake") + e("gravity") + e("rail_work"), "motion"],
+        ["given by what guides the wheel and holds its speed", e("hub_work") + e("brake") + e("gravity") + e("rail_work"), "motion"],
         ["given by heat, which swells the steel", e("thermal_work"), "motion"],
       ],
       taken = [

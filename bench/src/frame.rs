@@ -53,7 +53,7 @@ pub fn fill(run: &mut Run, window: &mut Window, out: &mut Vec<f64>) {
     out.extend(record::columns().iter().map(|(_, read)| read(&outputs)));
     let (simulation, patch) = (run.simulation(), run.settings().patch);
     let config = simulation.model().config();
-    let map = PatchMap::new(simulation.state(), &outputs, patch == Patch::Line, config.thermal.reference);
+    let map = PatchMap::new(simulation.state(), &outputs, patch, config.thermal.reference);
     widen(window, outputs.contact_half_width, map.ends());
     let stretches: Vec<_> = run.track().beyond(outputs.wheel_distance).iter().take(STRETCHES).collect();
     let flag = |is: bool| f64::from(u8::from(is));

@@ -1,10 +1,11 @@
 //! The patch from above: pressure, shear along and across, slip along and temperatures on a regular grid of x, along the rail, and z, across.
 //!
-//! A patch is computed on lines side by side. Between two of them the square of the half-length is linear in z, or of a
-//! symmetric patch in z², and falls to zero at the edge: the outline of an ellipse is exact. Values are taken at the
+//! A patch is computed on lines side by side. Between two of them the square of the half-length is linear in z, or of an
+//! ellipse in z², and falls to zero at the edge: the outline of an ellipse is exact. Values are taken at the
 //! same share of the half-length. Pressure and shear are proportional to it besides, so that of an ellipse Hertz's
 //! pressure is exact; slip and temperature are linear.
 
+use crate::settings::Patch;
 use wheelrail::rolling::{Line, State};
 use wheelrail::simulation::Outputs;
 
@@ -62,33 +63,32 @@ struct Place<'a, 'b> {
 /// The patch of a state. Its lines are those of the outputs `line.*`.
 pub struct PatchMap<'a> {
     groups: Vec<Group<'a>>,
-    symmetric: bool,
-    constant: bool,
+    patch: Patch,
     points: &'a [f64],
     reference: f64,
 }
 
 impl<'a> PatchMap<'a> {
-    /// The patch of a state and of its outputs; `constant`: of one width along all of its length. `reference` is the
-    /// temperature of cold steel \[K].
-    pub fn new(state: &'a State, outputs: &'a Outputs, constant: bool, reference: f64) -> Self {
+    /// The patch of a state and of its outputs. `reference` is the temperature of cold steel \[K].
+    pub fn new(state: &'a State, outputs: &'a Outputs, patch: Patch, reference: f64) -> Self {
+        // Lines of a symmetric patch stand for two of those of the outputs.
         let symmetric = outputs.contact_line_count as usize > state.lines.len();
         let strips = seen(&state.lines, symmetric).into_iter().enumerate().map(|(k, line)| strip(line, outputs, k));
         let mut groups: Vec<Group> = Vec::new();
         for strip in strips {
             let [low, high] = [-0.5, 0.5].map(|side| strip.z + side * strip.width);
             match groups.last_mut() {
-                Some(group) if symmetric || low - group.high < APART * strip.width => {
+                Some(group) if patch == Patch::Ellipse || low - group.high < APART * strip.width => {
                     group.high = high;
                     group.strips.push(strip);
                 }
                 _ => groups.push(Group { strips: vec![strip], low, high }),
             }
         }
-        if let (true, [group]) = (symmetric, groups.as_mut_slice()) {
+        if let (Patch::Ellipse, [group]) = (patch, groups.as_mut_slice()) {
             (group.low, group.high) = (-0.5 * outputs.contact_width, 0.5 * outputs.contact_width);
         }
-        Self { groups, symmetric, constant, points: &outputs.profile_x, reference }
+        Self { groups, patch, points: &outputs.profile_x, reference }
     }
 
     /// Both ends of the patch across \[m].
@@ -125,7 +125,7 @@ impl<'a> PatchMap<'a> {
     fn place<'b>(&'b self, z: f64) -> Option<Place<'a, 'b>> {
         let group = self.groups.iter().find(|group| (group.low..=group.high).contains(&z))?;
         let (first, last) = (group.strips.first()?, group.strips.last()?);
-        if self.constant {
+        if self.patch == Patch::Line {
             return Some(Place {
                 lines: [(first, 1.0), (first, 0.0)],
                 centre: first.centre,
@@ -133,7 +133,7 @@ impl<'a> PatchMap<'a> {
                 fading: 1.0,
             });
         }
-        let law = |z: f64| if self.symmetric { z * z } else { z };
+        let law = |z: f64| if self.patch == Patch::Ellipse { z * z } else { z };
         let beyond = |line: &'b Strip<'a>, edge: f64| {
             let Strip { z: end, centre, half_length, .. } = *line;
             let left = (law(edge) - law(z)) / (law(edge) - law(end));
@@ -214,13 +214,7 @@ fn strip<'a>(line: &'a Line, outputs: &Outputs, k: usize) -> Strip<'a> {
     let extent = line.contact.traction.extent();
     let (centre, half_length) = extent.map_or((0.0, 0.0), |extent| (extent.middle(), extent.half_length()));
     let of = |values: &[f64]| values.get(k).copied().unwrap_or(0.0);
-    Strip {
-        line,
-        z: of(&outputs.line_position),
-        width: of(&outputs.line_width),
-        centre,
-        half_length,
-    }
+    Strip { line, z: of(&outputs.line_position), width: of(&outputs.line_width), centre, half_length }
 }
 
 /// Value at a place between ascending points; beyond them that of the last one.

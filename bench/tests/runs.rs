@@ -114,12 +114,13 @@ fn the_picture_of_the_patch_carries_load_and_brake_force() {
     for (patch, bound) in [(Patch::Line, 2e-3), (Patch::Ellipse, 0.01), (Patch::S1002, 0.03)] {
         let mut bench = run(&format!("patch={}&torque=4", patch.name()));
         steps(&mut bench, 40);
-        let constant = patch == Patch::Line;
         let (state, outputs) = (bench.simulation().state().clone(), bench.outputs().clone());
-        let map = PatchMap::new(&state, &outputs, constant, 293.15);
+        let map = PatchMap::new(&state, &outputs, patch, 293.15);
         let [low, high] = map.ends();
-        let (size, x) =
-            (GridSize { along: 400, across: if constant { 1 } else { 200 } }, 1.2 * outputs.contact_half_width);
+        let (size, x) = (
+            GridSize { along: 400, across: if patch == Patch::Line { 1 } else { 200 } },
+            1.2 * outputs.contact_half_width,
+        );
         let mut values = Vec::new();
         map.fill(size, [[-x, x], [low, high]], &mut values);
         let cells = size.along * size.across;
@@ -139,7 +140,7 @@ fn the_picture_of_the_patch_carries_load_and_brake_force() {
 fn the_picture_of_an_ellipse_has_the_pressure_of_hertz() {
     let mut bench = run("patch=ellipse&torque=0");
     let (state, outputs) = (bench.simulation().state().clone(), bench.outputs().clone());
-    let map = PatchMap::new(&state, &outputs, false, 293.15);
+    let map = PatchMap::new(&state, &outputs, Patch::Ellipse, 293.15);
     let (a, b) = (outputs.contact_half_width, 0.5 * outputs.contact_width);
     let peak = 1.5 * outputs.contact_force_y / (std::f64::consts::PI * a * b);
     let (size, mut values) = (GridSize { along: 61, across: 31 }, Vec::new());
@@ -170,7 +171,7 @@ fn a_wheel_with_an_angle_of_attack_is_pushed_to_the_side_and_the_picture_carries
     let (state, outputs) = (bench.simulation().state().clone(), bench.outputs().clone());
     assert!((outputs.contact_lateral_creepage - 5e-3).abs() < 1e-4, "{}", outputs.contact_lateral_creepage);
     assert!(outputs.contact_force_z < -5e3, "it slides to the right: {} N", outputs.contact_force_z);
-    let map = PatchMap::new(&state, &outputs, false, 293.15);
+    let map = PatchMap::new(&state, &outputs, Patch::Ellipse, 293.15);
     let ([low, high], x) = (map.ends(), 1.1 * outputs.contact_half_width);
     let (size, mut values) = (GridSize { along: 200, across: 200 }, Vec::new());
     map.fill(size, [[-x, x], [low, high]], &mut values);
