@@ -50,8 +50,7 @@ class Bench {
     this.set = {};
     // The link that was opened, if it has changes over time.
     this.script = null;
-    // Frames and computing time of the last run of the clock.
-    this.measured = { frames: 0, steps: 0, spent: 0, since: 0 };
+    this.measure();
   }
 
   async load() {
@@ -183,7 +182,7 @@ class Bench {
     $("#go").textContent = "❚❚ pause";
     $("#go").setAttribute("aria-pressed", "true");
     $("#railhint").textContent = "from 5 m ahead on";
-    this.measured = { frames: 0, steps: 0, spent: 0, since: performance.now() };
+    this.measure();
     let before = await new Promise(requestAnimationFrame),
       owed = 0;
     while (this.running) {
@@ -212,12 +211,17 @@ class Bench {
     return done < steps ? 0 : owed - done;
   }
 
-  // How fast the run is, twice a second.
+  // Pictures, steps and computing time [ms] from now on.
+  measure() {
+    this.measured = { frames: 0, steps: 0, spent: 0, since: performance.now() };
+  }
+
+  // How fast the run is, once a second.
   tellPace() {
     const m = this.measured,
       now = performance.now();
-    if (now - (this.told || 0) < 500 || m.steps === 0) return;
-    this.told = now;
+    if (now - m.since < 1000 || m.steps === 0) return;
+    this.measure();
     const speed = (1e3 * STEP * m.steps) / (now - m.since);
     this.say(`${shown(speed, 2)} × real time, ${shown(m.spent / m.steps, 2)} ms of computing a step of 1 ms, ${shown((1e3 * m.frames) / (now - m.since), 2)} pictures a second`);
   }
@@ -346,7 +350,10 @@ function wire(bench) {
   });
   const redraw = () => bench.frame && bench.view.show(bench.frame);
   addEventListener("resize", redraw);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+    style.clear();
+    redraw();
+  });
 }
 
 const BENCH_BASES = {};

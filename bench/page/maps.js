@@ -4,7 +4,12 @@
 const INFERNO = ["#000004", "#1b0c41", "#4a0c6b", "#781c6d", "#a52c60", "#cf4446", "#ed6925", "#fb9b06", "#f7d13d", "#fcffa4"];
 const VIRIDIS = ["#440154", "#482878", "#3e4989", "#31688e", "#26828e", "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"];
 
-const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+// Values of the style, kept until the theme changes: asking takes longer than drawing.
+const style = new Map();
+function css(name) {
+  if (!style.has(name)) style.set(name, getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+  return style.get(name);
+}
 const channels = (c) => [1, 3, 5].map((k) => parseInt(c.slice(k, k + 2), 16));
 
 // A table of 256 colours between given ones.
