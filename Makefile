@@ -94,7 +94,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test test-tools test-rust test-fmpy quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs bench-page bench-tools site describe clean
+.PHONY: demo help test test-tools test-rust test-fmpy quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs bench-page site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -251,14 +251,13 @@ docs:
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --locked --no-deps --lib --workspace
 
 # Tools first: they are told before minutes of compiling.
-bench-page: bench-tools $(BENCH_PAGE)
-
-bench-tools:
+bench-page:
 	@bench/build --check
+	@$(MAKE) --no-print-directory $(BENCH_PAGE)
 
 # Strict: a link or an anchor that leads nowhere, and a page that the navigation lacks, are errors.
 site: docs $(SITE)
-	@if bench/build --check; then $(MAKE) --no-print-directory bench-page; else echo "the site is made without the bench"; fi
+	@if bench/build --check; then $(MAKE) --no-print-directory $(BENCH_PAGE); else echo "the site is made without the bench"; fi
 	cd site && NO_MKDOCS_2_WARNING=1 ../$(PY) -m mkdocs build --quiet
 	@echo "written: target/site/index.html"
 
