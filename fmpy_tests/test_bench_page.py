@@ -44,10 +44,10 @@ def table(text):
     return {name: [float(row[k]) for row in rows] for k, name in enumerate(header)}
 
 
-def native(library, link):
+def native(library, link, steps=STEPS):
     """Table and program of a run on this machine."""
     library.text("start", link)
-    library.step(STEPS)
+    library.step(steps)
     return library.text("csv"), library.text("python")
 
 
@@ -77,7 +77,7 @@ def without_residuals(columns):
 @pytest.mark.parametrize("patch", ["line", "s1002"])
 def test_the_program_repeats_the_run_on_the_fmu(library, packed, monkeypatch, patch):
     # A contact with lateral creepage does not melt.
-    text, program = native(library, LOCKED.format(patch) if patch == "line" else BRAKED.format(patch) + "&angle=4")
+    text, program = native(library, LOCKED.format(patch) if patch == "line" else BRAKED.format(patch) + "&angle=4", 150)
     monkeypatch.setenv("WHEELRAIL_FMU", str(packed))
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
