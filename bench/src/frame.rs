@@ -2,7 +2,7 @@
 
 use crate::patch_map::{GridSize, PatchMap, QUANTITIES};
 use crate::rail::Condition;
-use crate::record::{self, COLUMNS};
+use crate::record::COLUMNS;
 use crate::run::Run;
 use crate::settings::Patch;
 use serde_json::{Value, json};
@@ -50,7 +50,7 @@ pub fn description(patch: Patch) -> Value {
 /// wheel \[m] and the number of the condition, the map of the patch and its outline, and the temperatures over the depth.
 pub fn fill(run: &mut Run, window: &mut Window, out: &mut Vec<f64>) {
     let outputs = run.outputs().clone();
-    out.extend(record::columns().iter().map(|(_, read)| read(&outputs)));
+    out.extend(run.numbers());
     let (simulation, patch) = (run.simulation(), run.settings().patch);
     let config = simulation.model().config();
     let map = PatchMap::new(simulation.state(), &outputs, patch, config.thermal.reference);

@@ -1,6 +1,6 @@
 //! Numbers of a run over time, at the end of every step or, of a long run, of every second, fourth, … one.
 
-use wheelrail::simulation::{OutputRow, Outputs, Read};
+use wheelrail::simulation::{Outputs, Read};
 
 /// Outputs that the page shows and the CSV holds, by their names in the FMU.
 pub const COLUMNS: [&str; 34] = [
@@ -42,11 +42,14 @@ pub const COLUMNS: [&str; 34] = [
 /// Rows that are kept; when there are more, every second one goes.
 const MOST_ROWS: usize = 60_000;
 
-/// The rows of [`COLUMNS`], each with the function that reads it.
-pub fn columns() -> Vec<(&'static OutputRow, fn(&Outputs) -> f64)> {
+/// A column: its name, and what reads it.
+pub type Column = (&'static str, fn(&Outputs) -> f64);
+
+/// The columns of [`COLUMNS`].
+pub fn columns() -> Vec<Column> {
     let real = |name: &&str| {
         let row = Outputs::ROWS.iter().find(|row| row.name == *name)?;
-        if let Read::Real(read) = row.read { Some((row, read)) } else { None }
+        if let Read::Real(read) = row.read { Some((row.name, read)) } else { None }
     };
     COLUMNS.iter().filter_map(real).collect()
 }
@@ -90,8 +93,7 @@ impl Record {
 
     /// The rows as a table with a header: time \[s], then [`COLUMNS`] in SI units, with all digits.
     pub fn csv(&self) -> String {
-        let names = columns().iter().map(|(row, _)| row.name).collect::<Vec<_>>().join(",");
-        let mut text = format!("time,{names}\n");
+        let mut text = format!("time,{}\n", COLUMNS.join(","));
         for (k, row) in self.rows.iter().enumerate() {
             text += &time(k * self.stride, self.step).to_string();
             row.iter().for_each(|value| text += &format!(",{value:e}"));
@@ -112,7 +114,7 @@ mod tests {
 
     #[test]
     fn every_column_is_a_number_of_the_model() {
-        let found: Vec<_> = columns().iter().map(|(row, _)| row.name).collect();
+        let found: Vec<_> = columns().iter().map(|(name, _)| *name).collect();
         assert_eq!(found, COLUMNS);
     }
 

@@ -1,7 +1,7 @@
 //! A run of the bench: one wheel, its rail, and what is done to it.
 
 use crate::rail::{Condition, Track};
-use crate::record::{self, Record};
+use crate::record::{self, Column, Record};
 use crate::script::Change;
 use crate::settings::{STEP_MS, Settings};
 use std::collections::VecDeque;
@@ -29,6 +29,7 @@ pub struct Run {
     torque: f64,
     locked: bool,
     steps: u32,
+    columns: Vec<Column>,
     record: Record,
     /// What has been set before which step.
     log: Vec<(u32, Setting)>,
@@ -59,6 +60,7 @@ impl Run {
             torque,
             locked: false,
             steps: 0,
+            columns: record::columns(),
             record: Record::new(STEP),
             log: Vec::new(),
         };
@@ -163,8 +165,13 @@ impl Run {
     }
 
     fn note(&mut self) {
+        self.record.take(self.numbers());
+    }
+
+    /// Present numbers of all columns of the table.
+    pub fn numbers(&self) -> Vec<f64> {
         let outputs = self.simulation.outputs();
-        self.record.take(record::columns().iter().map(|(_, read)| read(outputs)).collect());
+        self.columns.iter().map(|(_, read)| read(outputs)).collect()
     }
 
     /// The run until now as a link.
