@@ -3,9 +3,10 @@
 //! A patch is computed on lines side by side. Between two of them the square of the half-length is linear in z, or of an
 //! ellipse in z², and falls to zero at the edge: the outline of an ellipse is exact. Values are taken at the
 //! same share of the half-length. Pressure and shear are proportional to it besides, so that of an ellipse Hertz's
-//! pressure is exact; slip and temperature are linear.
+//! pressure is exact; slip and temperature are linear, and so is the place where slip turns to stick.
 
 use crate::settings::Patch;
+use wheelrail::contact::Traction;
 use wheelrail::rolling::{Line, State};
 use wheelrail::simulation::Outputs;
 
@@ -41,6 +42,10 @@ struct Strip<'a> {
     /// Middle and half-length of all on which forces act \[m].
     centre: f64,
     half_length: f64,
+    /// Places where slip turns to stick or back, from the middle over the half-length, ascending \[1].
+    turns: Vec<f64>,
+    /// True if it slips before the first of them.
+    slips: bool,
 }
 
 /// Lines with no free width between them, z ascending.
@@ -66,6 +71,17 @@ pub struct PatchMap<'a> {
     patch: Patch,
     points: &'a [f64],
     reference: f64,
+}
+
+impl Strip<'_> {
+    /// Distance of a place from the nearest one where slip turns to stick, or from the nearest end, all over the
+    /// half-length \[1]: positive where it slips.
+    fn slipping(&self, place: f64) -> f64 {
+        let passed = self.turns.partition_point(|turn| *turn < place);
+        let slips = self.slips != (passed % 2 == 1);
+        let nearest = self.turns.iter().map(|turn| (place - turn).abs()).fold(1.0 - place.abs(), f64::min);
+        if slips { nearest } else { -nearest }
+    }
 }
 
 impl<'a> PatchMap<'a> {
@@ -178,9 +194,8 @@ impl<'a> PatchMap<'a> {
                 values[0] += scale * traction.pressure.at(at);
                 values[1] += scale * traction.shear.at(at);
                 values[2] += scale * traction.lateral_shear.at(at);
-                let [along, aside] = [traction.slip.at(at), traction.lateral_slip.at(at)];
-                values[3] += weight * along;
-                slips += weight * f64::from(u8::from(along.abs().max(aside.abs()) > STICKS));
+                values[3] += weight * traction.slip.at(at);
+                slips += weight * strip.slipping(from_centre / half_length);
             }
             if let Some(thermal) = &strip.line.thermal {
                 for (body, surface) in thermal.surface.iter().enumerate() {
@@ -189,7 +204,7 @@ impl<'a> PatchMap<'a> {
             }
         }
         if values[0] > 0.0 {
-            values[STATE] = if slips > 0.5 { STATES[2] } else { STATES[1] };
+            values[STATE] = if slips > 0.0 { STATES[2] } else { STATES[1] };
         }
         values
     }
@@ -214,7 +229,23 @@ fn strip<'a>(line: &'a Line, outputs: &Outputs, k: usize) -> Strip<'a> {
     let extent = line.contact.traction.extent();
     let (centre, half_length) = extent.map_or((0.0, 0.0), |extent| (extent.middle(), extent.half_length()));
     let of = |values: &[f64]| values.get(k).copied().unwrap_or(0.0);
-    Strip { line, z: of(&outputs.line_position), width: of(&outputs.line_width), centre, half_length }
+    let (turns, slips) = turns(&line.contact.traction, [centre, half_length]);
+    let (z, width) = (of(&outputs.line_position), of(&outputs.line_width));
+    Strip { line, z, width, centre, half_length, turns, slips }
+}
+
+/// Places where slip turns to stick or back on a line with this middle and half-length, and whether it slips before them.
+fn turns(traction: &Traction, [centre, half_length]: [f64; 2]) -> (Vec<f64>, bool) {
+    let Traction { slip, lateral_slip, .. } = traction;
+    let amount = |(x, along): (&f64, &f64)| (*x, along.abs().max(lateral_slip.at(*x).abs()));
+    let nodes: Vec<_> = slip.x.iter().zip(&slip.value).map(amount).collect();
+    let slips = |node: &(f64, f64)| node.1 > STICKS;
+    let turn = |pair: &[(f64, f64)]| {
+        let [a, b] = [pair[0], pair[1]];
+        let place = a.0 + (b.0 - a.0) * (STICKS - a.1) / (b.1 - a.1);
+        (slips(&a) != slips(&b)).then_some((place - centre) / half_length)
+    };
+    (nodes.windows(2).filter_map(turn).collect(), nodes.first().is_some_and(slips))
 }
 
 /// Value at a place between ascending points; beyond them that of the last one.
