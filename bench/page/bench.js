@@ -46,6 +46,7 @@ class Bench {
     this.begun = false;
     this.held = new Set();
     this.rail = "dry";
+    this.starts = Promise.resolve();
     // Torque and load of the last frame.
     this.set = {};
     // The link that was opened, if it has changes over time.
@@ -226,15 +227,18 @@ class Bench {
     this.say(`${shown(speed, 2)} × real time, ${shown(m.spent / m.steps, 2)} ms of computing a step of 1 ms, ${shown((1e3 * m.frames) / (now - m.since), 2)} pictures a second`);
   }
 
-  // A new run as the controls say, or the link once more that was opened.
-  async restart(link = this.wished()) {
+  // A new run as the controls say, or of a link; one after the other, as somebody may not wait.
+  restart(link = this.wished()) {
     const goes = this.running;
-    try {
-      await this.start(link);
-      if (goes) this.run();
-    } catch (error) {
-      this.say(error.message, true);
-    }
+    this.starts = this.starts.then(async () => {
+      try {
+        await this.start(link);
+        if (goes) this.run();
+      } catch (error) {
+        this.say(error.message, true);
+      }
+    });
+    return this.starts;
   }
 
   async layRail(condition) {
@@ -346,7 +350,7 @@ function wire(bench) {
     action(bench);
   });
   addEventListener("hashchange", () => {
-    if (location.hash !== bench.mine) bench.start(location.hash.slice(1)).catch((error) => bench.say(error.message, true));
+    if (location.hash !== bench.mine) bench.restart(location.hash.slice(1));
   });
   const redraw = () => bench.frame && bench.view.show(bench.frame);
   addEventListener("resize", redraw);
