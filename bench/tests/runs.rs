@@ -111,7 +111,8 @@ fn a_change_by_hand_takes_the_place_of_what_the_link_has_still_to_come() {
 
 #[test]
 fn the_picture_of_the_patch_carries_load_and_brake_force() {
-    for (patch, bound) in [(Patch::Line, 2e-3), (Patch::Ellipse, 0.01), (Patch::S1002, 0.03)] {
+    // Between its nodes a profile is straight, and between its lines a patch is interpolated.
+    for (patch, bound) in [(Patch::Line, 0.01), (Patch::Ellipse, 0.02), (Patch::S1002, 0.04)] {
         let mut bench = run(&format!("patch={}&torque=4", patch.name()));
         steps(&mut bench, 40);
         let (state, outputs) = (bench.simulation().state().clone(), bench.outputs().clone());
@@ -166,10 +167,10 @@ fn the_picture_of_an_ellipse_has_the_pressure_of_hertz() {
 
 #[test]
 fn a_wheel_with_an_angle_of_attack_is_pushed_to_the_side_and_the_picture_carries_that_force() {
-    let mut bench = run("patch=ellipse&torque=2&angle=5");
+    let mut bench = run("patch=ellipse&torque=4&angle=2");
     steps(&mut bench, 30);
     let (state, outputs) = (bench.simulation().state().clone(), bench.outputs().clone());
-    assert!((outputs.contact_lateral_creepage - 5e-3).abs() < 1e-4, "{}", outputs.contact_lateral_creepage);
+    assert!((outputs.contact_lateral_creepage - 2e-3).abs() < 1e-4, "{}", outputs.contact_lateral_creepage);
     assert!(outputs.contact_force_z < -5e3, "it slides to the right: {} N", outputs.contact_force_z);
     let map = PatchMap::new(&state, &outputs, Patch::Ellipse, 293.15);
     let ([low, high], x) = (map.ends(), 1.1 * outputs.contact_half_width);
@@ -177,6 +178,11 @@ fn a_wheel_with_an_angle_of_attack_is_pushed_to_the_side_and_the_picture_carries
     map.fill(size, [[-x, x], [low, high]], &mut values);
     let cells = size.along * size.across;
     let force = 2.0 * x * (high - low) / cells as f64 * values[2 * cells..][..cells].iter().sum::<f64>();
+    let states = &values[STATE * cells..][..cells];
+    let count = |of: f64| states.iter().filter(|state| **state == of).count() as f64;
+    let sticks = count(STATES[1]) / (count(STATES[1]) + count(STATES[2]));
+    println!("sticks on {sticks:.3}, {:.3} by the output", outputs.contact_stick_fraction);
+    assert!((sticks - outputs.contact_stick_fraction).abs() < 0.05);
     println!("lateral force of the picture is off by {:.1e}", force / outputs.contact_force_z - 1.0);
     assert!((force / outputs.contact_force_z - 1.0).abs() < 0.01);
 }
