@@ -1,4 +1,4 @@
-//! What the page draws of a run at one time, as a row of numbers, and the description of that row.
+//! Picture of a run at one time for the page: a row of numbers, and the description of that row.
 
 use crate::patch_map::{GridSize, PatchMap, QUANTITIES};
 use crate::rail::Condition;

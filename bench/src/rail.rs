@@ -2,7 +2,7 @@
 
 use wheelrail::config::{Config, presets};
 
-/// What lies on the rail. Friction is that of the preset of this name.
+/// Layer on the rail. Friction is that of the preset of this name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Condition {
     /// Nothing: `railway_dry`.

@@ -31,7 +31,7 @@ pub struct Run {
     steps: u32,
     columns: Vec<Column>,
     record: Record,
-    /// What has been set before which step.
+    /// Settings, with the number of steps done before them.
     log: Vec<(u32, Setting)>,
 }
 
@@ -191,7 +191,7 @@ impl Run {
         &self.settings
     }
 
-    /// What has been set before which step.
+    /// Settings, with the number of steps done before them.
     pub fn log(&self) -> &[(u32, Setting)] {
         &self.log
     }

@@ -111,8 +111,10 @@ fn a_change_by_hand_takes_the_place_of_what_the_link_has_still_to_come() {
 
 #[test]
 fn the_picture_of_the_patch_carries_load_and_brake_force() {
-    // Between its nodes a profile is straight, and between its lines a patch is interpolated.
-    for (patch, bound) in [(Patch::Line, 0.01), (Patch::Ellipse, 0.02), (Patch::S1002, 0.04)] {
+    // Between its nodes a profile is straight; between lines the peak of shear, where slip turns to stick, is smeared; and the
+    // outermost rows of S1002, which bear load on all of their width, taper to the edge.
+    let bounds = [(Patch::Line, [5e-3, 1e-2]), (Patch::Ellipse, [5e-3, 0.03]), (Patch::S1002, [0.06, 0.05])];
+    for (patch, bounds) in bounds {
         let mut bench = run(&format!("patch={}&torque=4", patch.name()));
         steps(&mut bench, 40);
         let (state, outputs) = (bench.simulation().state().clone(), bench.outputs().clone());
@@ -129,7 +131,7 @@ fn the_picture_of_the_patch_carries_load_and_brake_force() {
         let force = |quantity: usize| area * values[quantity * cells..][..cells].iter().sum::<f64>();
         let found = [force(0) / outputs.contact_force_y - 1.0, force(1) / outputs.contact_force_x - 1.0];
         println!("{patch:?}: load and brake force of the picture are off by {:.1e} and {:.1e}", found[0], found[1]);
-        assert!(found.iter().all(|off| off.abs() < bound), "{found:?}");
+        assert!(found.iter().zip(bounds).all(|(off, bound)| off.abs() < bound), "{found:?}");
         let sticks = values[STATE * cells..][..cells].iter().filter(|state| **state == STATES[1]).count() as f64;
         let touches = values[STATE * cells..][..cells].iter().filter(|state| **state != STATES[0]).count() as f64;
         println!("sticks on {:.3}, {:.3} by the output", sticks / touches, outputs.contact_stick_fraction);
