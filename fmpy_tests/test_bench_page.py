@@ -74,10 +74,13 @@ def without_residuals(columns):
     return {name: values for name, values in columns.items() if not name.endswith("_residual")}
 
 
-@pytest.mark.parametrize("patch", ["line", "s1002"])
-def test_the_program_repeats_the_run_on_the_fmu(library, packed, monkeypatch, patch):
-    # A contact with lateral creepage does not melt.
-    text, program = native(library, LOCKED.format(patch) if patch == "line" else BRAKED.format(patch) + "&angle=4", 150)
+@pytest.mark.parametrize(
+    ("patch", "run", "steps"),
+    [("line", LOCKED, 150), ("s1002", BRAKED, 50), ("ellipse", f"{BRAKED}&angle=4", 50)],
+    ids=["locked", "s1002", "turned"],
+)
+def test_the_program_repeats_the_run_on_the_fmu(library, packed, monkeypatch, patch, run, steps):
+    text, program = native(library, run.format(patch), steps)
     monkeypatch.setenv("WHEELRAIL_FMU", str(packed))
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
