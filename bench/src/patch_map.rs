@@ -10,10 +10,10 @@ use wheelrail::contact::Traction;
 use wheelrail::rolling::{Line, State};
 use wheelrail::simulation::Outputs;
 
-/// Slip [m/s] below which a place sticks, as in the report page, and share of the friction limit in shear from which on it slips
-/// where friction acts across, too \[1].
+/// Slip [m/s] below which a place sticks, as in the report page.
 const STICKS: f64 = 1e-6;
-const LIMIT: f64 = 0.999;
+/// Slip of places that stick over the largest of the line, at most, where friction acts across, too \[1].
+const RESIDUE: f64 = 0.05;
 /// Free width between two lines, over their mean width, from which on they belong to two patches \[1].
 const APART: f64 = 0.2;
 
@@ -238,18 +238,19 @@ fn strip<'a>(line: &'a Line, outputs: &Outputs, k: usize) -> Strip<'a> {
 
 /// Places where slip turns to stick or back on a line with this middle and half-length, and whether it slips before them.
 ///
-/// Where friction acts across, too, slip is not exactly zero where the surfaces stick: there shear tells, which is on the limit
-/// of friction where they slip.
+/// Where friction acts across, too, slip is not exactly zero where the surfaces stick: a small share of the largest divides them.
 fn turns(traction: &Traction, [centre, half_length]: [f64; 2]) -> (Vec<f64>, bool) {
-    let Traction { pressure, shear, slip, lateral_shear, lateral_slip, friction, .. } = traction;
-    let amount = |x: f64| (shear.at(x).powi(2) + lateral_shear.at(x).powi(2)).sqrt();
-    let used = |x: f64| amount(x) / (friction.coefficient * pressure.at(x));
-    let excess = |(x, along): (&f64, &f64)| match lateral_slip.is_empty() {
-        true => along.abs() - STICKS,
-        false => used(*x) - LIMIT,
+    let Traction { slip, lateral_slip, stick_fraction, .. } = traction;
+    let amount = |(x, along): (&f64, &f64)| (*x, (along.powi(2) + lateral_slip.at(*x).powi(2)).sqrt());
+    let amounts: Vec<_> = slip.x.iter().zip(&slip.value).map(amount).collect();
+    let largest = amounts.iter().fold(0.0, |largest: f64, (_, amount)| largest.max(*amount));
+    let least = match lateral_slip.is_empty() {
+        true => STICKS,
+        false if *stick_fraction <= 0.0 => -1.0,
+        false if *stick_fraction >= 1.0 => 2.0 * largest,
+        false => RESIDUE * largest,
     };
-    let excesses = slip.x.iter().zip(&slip.value).map(|node| (*node.0, excess(node)));
-    let nodes: Vec<_> = excesses.filter(|(_, excess)| excess.is_finite()).collect();
+    let nodes: Vec<_> = amounts.iter().map(|(x, amount)| (*x, amount - least)).collect();
     let turn = |pair: &[(f64, f64)]| {
         let [a, b] = [pair[0], pair[1]];
         let place = a.0 - (b.0 - a.0) * a.1 / (b.1 - a.1);
