@@ -41,7 +41,8 @@
 # make leak-check memory errors and leaks of the FMU's C interface, with valgrind
 # make house     counts of the source: impl files, fields, duplicate names, comments, long functions, lines
 # make docs      HTML documentation of the library; every warning is an error
-# make site      these pages with search, formulas set, and the API of Python and Rust: target/site/index.html
+# make bench-page  a wheel that rolls, brakes and locks in the browser: target/bench/index.html; says which compiler is missing
+# make site      these pages with search, formulas set, the API of Python and Rust, and the bench where its compiler is: target/site/index.html
 # make describe  regenerate modelDescription.xml, that of FMI 3.0 (modelDescription3.xml) and docs/reference.md from the variable table
 # make clean     remove everything that was built
 #                make TARGET ARGS="..." hands options to the program of any example, train, sweep, endurance and
@@ -65,6 +66,9 @@ FMU3 := target/wheelrail-fmi3.fmu
 SLIM := target/wheelrail-slim.fmu
 SBOM := target/wheelrail.cdx.json
 COACH := $(TARGET)/release/.coach
+BENCH := $(TARGET)/release/.bench
+BENCH_WASM := target/wasm/bench.wasm
+BENCH_PAGE := target/bench/index.html
 FMU_ALL := target/wheelrail-all.fmu
 FMU_ALL3 := target/wheelrail-fmi3-all.fmu
 SLIM_ALL := target/wheelrail-slim-all.fmu
@@ -94,7 +98,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack published locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs site describe clean
+.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack published locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs bench-page site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -120,10 +124,10 @@ test-tools:
 	$(PYTHON) -m unittest discover --quiet tools
 
 test-rust:
-	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail -p wheelrail-slave
+	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail -p wheelrail-slave -p wheelrail-bench
 	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail-thesis
 
-test-fmpy: $(FMU) $(FMU3) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
+test-fmpy: $(FMU) $(FMU3) $(COACH) $(BENCH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 	$(PY) -m pytest --numprocesses logical fmpy_tests
 	$(PY) -m unittest discover --quiet --pattern test_structural_width.py tools
 
@@ -146,7 +150,7 @@ loop:
 	@test -n "$(TEST)" || { echo 'make loop TEST=name: the name of a program in tests/, or lib for the unit tests'; exit 1; }
 	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),--lib,--test $(TEST)) -- $(ARGS)
 
-test-times: $(FMU) $(FMU3) $(COACH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
+test-times: $(FMU) $(FMU3) $(COACH) $(BENCH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 	$(PYTHON) tools/test_times.py --python $(PY) --out $(TARGET)/test-times.md
 
 fmu3: $(FMU3)
@@ -269,8 +273,14 @@ house:
 docs:
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --locked --no-deps --lib --workspace
 
+# Tools first: they are told before minutes of compiling.
+bench-page:
+	@bench/build --check
+	@$(MAKE) --no-print-directory $(BENCH_PAGE)
+
 # Strict: a link or an anchor that leads nowhere, and a page that the navigation lacks, are errors.
 site: docs $(SITE)
+	@if bench/build --check; then $(MAKE) --no-print-directory $(BENCH_PAGE); else echo "the site is made without the bench"; fi
 	cd site && NO_MKDOCS_2_WARNING=1 ../$(PY) -m mkdocs build --quiet
 	@echo "written: target/site/index.html"
 
@@ -307,6 +317,16 @@ $(SBOM_ALL): Cargo.toml Cargo.lock slave/Cargo.toml packaging/sbom.py
 $(COACH): $(BUILT) $(shell find coach -type f)
 	$(RELEASE_CARGO) build --release --locked -p wheelrail -p wheelrail-coach
 	touch $@
+
+$(BENCH): $(BUILT) bench/Cargo.toml $(shell find bench/src -type f)
+	$(RELEASE_CARGO) build --release --locked -p wheelrail-bench
+	touch $@
+
+$(BENCH_WASM): $(BUILT) bench/build packaging/rustc-wrapper bench/Cargo.toml $(shell find bench/src -type f)
+	bench/build
+
+$(BENCH_PAGE): $(BENCH_WASM) $(BENCH) $(FMU) bench/assemble.py bench/library.py $(shell find bench/page -type f)
+	$(PYTHON) bench/assemble.py --core $(BENCH_WASM) --library $(TARGET)/release/libbench.so --fmu $(FMU) --out $(dir $@)
 
 # Exported functions, version of glibc and size are checked before the archive gets its name.
 $(FMU_ALL): $(BUILT) $(PLATFORMS) $(SBOM_ALL) packaging/build packaging/mingw-linker packaging/rustc-wrapper

@@ -20,8 +20,8 @@ PROGRAM = re.compile(
 )
 # Pages that tell what was.
 PAST = ("CHANGELOG.md", "docs/history/")
-PYTHON = ("python/src", "examples", "packaging", "tools", "docs", "site")
-RUST = ("examples", "benches", "src", "coach", "thesis", "slave")
+PYTHON = ("python/src", "bench", "examples", "packaging", "tools", "docs", "site")
+RUST = ("examples", "bench", "benches", "src", "coach", "thesis", "slave")
 SHELL = ("", "sh", "bash", "console", "text")
 
 

@@ -170,7 +170,8 @@ NOT_RUN = {
         "make describe", "make reference", "python3 examples/reference/make.py --binary target/release/wheelrail",
         ".venv/bin/python docs/model_png.py", "docs/third_party.py",
     ),
-    "needs compilers for Windows, wine, another machine or packages from the network": (
+    "needs compilers for Windows, WebAssembly, wine, another machine or packages from the network": (
+        "make bench-page",
         "make fmu-all", "make platforms-check", "make python-dist", "make release", "python3 packaging/handout.py FOLDER", "make site", "make sweep SCHEDULER=tcp://cluster:8786",
         "make sweep SCHEDULER=tcp://host:8786", "dask scheduler", "dask worker tcp://cluster:8786",
         "python3 packaging/hashes.py [FILE...]", "python3 packaging/check.py FMU", "python3 packaging/check.py FMU --run", "wheelrail pack --binary linux64=target/release/libwheelrail.so",

@@ -16,6 +16,7 @@ SHOWN = (
     "examples/train/schema/*.json", "packaging/build", "packaging/*.py", "packaging/*.c", ".github/workflows/*.yml",
 )  # fmt: skip
 RUST = ROOT / "target" / "doc"
+BENCH = ROOT / "target" / "bench"
 
 
 def shown():
@@ -24,19 +25,24 @@ def shown():
 
 
 def on_files(files, config):
-    """Adds the files of the repository and of rustdoc."""
+    """Adds the files of the repository, of rustdoc and, where it has been made, of the bench."""
     if not (RUST / "wheelrail" / "index.html").is_file():
         raise PluginError(f"{RUST}/wheelrail/index.html does not exist: run `make docs`")
     for path in shown():
         files.append(File.generated(config, path.removeprefix("."), abs_src_path=str(ROOT / path)))
     for index in RUST.glob("*/index.html"):
         files.append(File.generated(config, f"rust/{index.relative_to(RUST).as_posix()}", abs_src_path=str(index)))
+    for path in BENCH.rglob("*") if BENCH.is_dir() else ():
+        if path.is_file():
+            files.append(File.generated(config, f"bench/{path.relative_to(BENCH).as_posix()}", abs_src_path=str(path)))
     return files
 
 
 def on_page_markdown(markdown, page, config, files):
     """Formulas of the theory are blocks of text on the forge."""
     markdown = markdown.replace("](../.github/", "](../github/")  # a name that begins with a dot is no part of a site
+    if page.file.src_uri == "docs/bench.md" and BENCH.is_dir():
+        markdown = markdown.replace("`bench/index.html`", "[bench/index.html](../bench/index.html)")
     if page.file.src_uri.startswith("docs/theory/"):
         markdown = re.sub(r"^( *)```text$", r"\1```mathematics", markdown, flags=re.MULTILINE)
     return markdown

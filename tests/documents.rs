@@ -106,7 +106,8 @@ fn listed(page: &str) -> Vec<&str> {
 #[test]
 fn the_page_of_dependencies_names_every_crate_that_is_asked_for_and_no_other() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
-    let manifests = ["Cargo.toml", "slave/Cargo.toml", "coach/Cargo.toml", "thesis/Cargo.toml"].map(read);
+    let manifests =
+        ["Cargo.toml", "bench/Cargo.toml", "slave/Cargo.toml", "coach/Cargo.toml", "thesis/Cargo.toml"].map(read);
     let asked: BTreeSet<&str> = manifests.iter().flat_map(|manifest| dependencies(manifest)).collect();
     let page = read("docs/dependencies.md");
     let listed = listed(&page);

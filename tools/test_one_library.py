@@ -19,10 +19,11 @@ class OneLibrary(unittest.TestCase):
     def test_each_package_is_compiled_once(self):
         product, tests = compiled("--edges", "normal,build"), compiled("--edges", "normal,build,dev")
         coach = compiled("--edges", "normal,build", "--package", "wheelrail", "--package", "wheelrail-coach")
+        bench = compiled("--edges", "normal,build", "--package", "wheelrail-bench")
         thesis = compiled("--edges", "normal,build,dev", "--package", "wheelrail-thesis")
         self.assertTrue(any(line.startswith("nalgebra ") for line in product & thesis))
         packages = {line.split(" ")[0] for line in tests}
-        for name, other in [("cargo build", product), ("the coach", coach), ("the thesis", thesis)]:
+        for name, other in [("cargo build", product), ("the coach", coach), ("the bench", bench), ("the thesis", thesis)]:
             again = sorted(line for line in other - tests if line.split(" ")[0] in packages)
             self.assertEqual(
                 again,

@@ -2,7 +2,7 @@
 
 use crate::config::Config;
 use crate::files::{self, NewFile};
-use crate::mechanics::{self, Basis};
+use crate::mechanics::{self, Basis, BasisError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
@@ -28,6 +28,8 @@ pub struct BasisStore {
     capacity: Option<usize>,
     /// Directory of presets and profiles.
     resources: Option<PathBuf>,
+    /// Bases in memory, with the names of their files.
+    held: Vec<(String, Vec<u8>)>,
 }
 
 /// A stored basis that is not one, or a file that is none.
@@ -45,8 +47,20 @@ pub fn basis_file_name(config: &Config) -> String {
 
 impl BasisStore {
     /// Knows no place: every basis is computed and none is kept.
-    pub fn none() -> Self {
-        Self::default()
+    pub const fn none() -> Self {
+        Self { packed: Vec::new(), cache: None, no_cache: None, capacity: None, resources: None, held: Vec::new() }
+    }
+
+    /// Holds a basis in memory, the content of a file of [`basis_file_name`], which it returns: for programs without
+    /// files. Such a basis comes before all others.
+    ///
+    /// # Errors
+    /// Bytes that are no basis.
+    pub fn hold(&mut self, bytes: Vec<u8>) -> Result<String, BasisError> {
+        let name = format!("{}.bin", Basis::from_bytes(&bytes)?.key);
+        self.held.retain(|(other, _)| *other != name);
+        self.held.push((name.clone(), bytes));
+        Ok(name)
     }
 
     /// Reads and keeps bases in `<directory>/basis`.
@@ -90,16 +104,23 @@ impl BasisStore {
     /// file, counts as none.
     pub fn find(&self, config: &Config) -> Result<Option<(Basis, Vec<u8>)>, StoreError> {
         let name = basis_file_name(config);
-        let read = |directory: &PathBuf| -> Result<Option<(Basis, Vec<u8>)>, StoreError> {
-            let path = directory.join(&name);
-            let bytes = match files::read(&path) {
-                Ok(bytes) => bytes,
-                Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-                Err(error) => return Err(StoreError { path, problem: error.to_string() }),
-            };
-            let basis = Basis::from_bytes(&bytes).map_err(|error| StoreError { path, problem: error.to_string() })?;
+        let fitting = |bytes: Vec<u8>, path: &Path| {
+            let wrong = |error: BasisError| StoreError { path: path.to_owned(), problem: error.to_string() };
+            let basis = Basis::from_bytes(&bytes).map_err(wrong)?;
             Ok(Some((basis, bytes)).filter(|(basis, _)| basis.fits(config)))
         };
+        let read = |directory: &PathBuf| -> Result<Option<(Basis, Vec<u8>)>, StoreError> {
+            let path = directory.join(&name);
+            match files::read(&path) {
+                Ok(bytes) => fitting(bytes, &path),
+                Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+                Err(error) => Err(StoreError { path, problem: error.to_string() }),
+            }
+        };
+        let held = self.held.iter().find(|(held, _)| *held == name);
+        if let Some(found) = held.map(|(name, bytes)| fitting(bytes.clone(), Path::new(name))).transpose()?.flatten() {
+            return Ok(Some(found));
+        }
         for directory in &self.packed {
             if let Some(found) = read(directory)? {
                 return Ok(Some(found));

@@ -1,0 +1,209 @@
+"""The bench: its program of Python repeats its run on the FMU, and its page in a browser computes what the library does.
+
+The page is tried where it has been made (`make bench-page`) and a browser is. From a file, without network.
+"""
+
+import contextlib
+import csv
+import io
+import math
+import shutil
+import sys
+from pathlib import Path
+from urllib.parse import urldefrag
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+LIBRARY = ROOT / "target" / "release" / "libbench.so"
+PAGE = ROOT / "target" / "bench" / "index.html"
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+START = "patch={}&rail=wet&speed=80&load=90&torque=3"
+BRAKED = f"{START}&at=20:rail=leaves&at=40:load=110&at=60:torque=5&at=130:torque=2&at=150:hold&at=180:rail=dry"
+LOCKED = f"{START}&at=20:rail=leaves&at=40:lock&at=120:torque=1&at=120:release&at=140:load=80&at=150:hold"
+STEPS = 260
+# Relative difference of a value to the largest of its column, by rounding: of a wheel that rolls, and of one that has been
+# locked, whose steel yields and melts.
+SAME, SAME_LOCKED = 1e-9, 1e-8
+
+sys.path.insert(0, str(ROOT / "bench"))
+from library import Library  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def library(packed):
+    """The bench of this machine, with the bases of the FMU."""
+    if not LIBRARY.is_file():
+        pytest.fail(f"{LIBRARY} does not exist: it is built by `make test-fmpy`")
+    return Library(LIBRARY)
+
+
+def table(text):
+    """Columns of a CSV by name."""
+    header, *rows = csv.reader(io.StringIO(text))
+    return {name: [float(row[k]) for row in rows] for k, name in enumerate(header)}
+
+
+def native(library, link, steps=STEPS):
+    """Table and program of a run on this machine."""
+    library.text("start", link)
+    library.step(steps)
+    return library.text("csv"), library.text("python")
+
+
+def difference(one, other):
+    """Largest difference of two tables, relative to the largest value of the column, and the column. Energies are those of
+    one balance and have the largest of them as their scale."""
+    assert list(one) == list(other)
+    most = {name: max(map(abs, values)) for name, values in one.items()}
+    energies = max(value for name, value in most.items() if name.startswith("energy."))
+    found = {}
+    for name, values in one.items():
+        assert len(values) == len(other[name])
+        scale = energies if name.startswith("energy.") else most[name] or 1.0
+        found[name] = max(abs(a - b) for a, b in zip(values, other[name])) / scale
+        assert math.isfinite(found[name]), name
+    print({name: f"{found[name]:.1e}" for name in sorted(found, key=found.get)[-4:]})
+    worst = max(found, key=found.get)
+    return found[worst], worst
+
+
+# Residuals are what is left of sums that cancel: they differ by the rounding of these sums.
+def without_residuals(columns):
+    """Columns but for the residuals of the balances."""
+    return {name: values for name, values in columns.items() if not name.endswith("_residual")}
+
+
+@pytest.mark.parametrize(
+    ("patch", "run", "steps"),
+    [("line", LOCKED, 150), ("s1002", BRAKED, 50), ("ellipse", f"{BRAKED}&angle=4", 50)],
+    ids=["locked", "s1002", "turned"],
+)
+def test_the_program_repeats_the_run_on_the_fmu(library, packed, monkeypatch, patch, run, steps):
+    text, program = native(library, run.format(patch), steps)
+    monkeypatch.setenv("WHEELRAIL_FMU", str(packed))
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec(compile(program, "bench.py", "exec"), {})  # noqa: S102
+    worst, column = difference(table(text), table(printed.getvalue()))
+    print(f"{patch}: {worst:.1e} of {column}")
+    assert worst < 1e-12
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """Chromium without a window."""
+    driver = pytest.importorskip("playwright.sync_api", reason="playwright is not installed (requirements-browser.txt)")
+    if BROWSER is None:
+        pytest.skip("no browser (chromium or google-chrome) is installed")
+    if not PAGE.is_file():
+        pytest.skip("the page has not been made: `make bench-page`, which needs a compiler for WebAssembly")
+    with driver.sync_playwright() as playwright:
+        opened = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox"])
+        yield opened
+        opened.close()
+
+
+@pytest.fixture
+def tab(browser):
+    """A tab with the page, and what it complained of and asked for."""
+    context = browser.new_context(viewport={"width": 1400, "height": 900}, offline=True, accept_downloads=True)
+    tab = context.new_page()
+    tab.complaints, tab.asked = [], []
+    tab.on("console", lambda message: tab.complaints.append(message.text) if message.type in ("error", "warning") else None)
+    tab.on("pageerror", lambda error: tab.complaints.append(str(error)))
+    tab.on("request", lambda request: tab.asked.append(request.url))
+    yield tab
+    context.close()
+    assert tab.complaints == []
+    assert all(url.startswith(("file:", "blob:", "data:")) for url in tab.asked), tab.asked
+
+
+def opened(tab, link=""):
+    """Opens the page with a run."""
+    tab.goto(PAGE.as_uri() + (f"#{link}" if link else ""))
+    tab.wait_for_selector("html[data-ready]", timeout=60_000)
+
+
+def test_the_page_is_made_of_the_source_that_lies_here(browser):
+    for name in ("index.html", "bench.js", "view.js", "charts.js", "maps.js", "style.css"):
+        assert (PAGE.parent / name).read_text() == (ROOT / "bench" / "page" / name).read_text(), f"`make bench-page`: {name} is older"
+
+
+@pytest.mark.parametrize(
+    ("patch", "run"),
+    [*((patch, run) for patch in ("line", "ellipse", "s1002") for run in (BRAKED, LOCKED)), ("ellipse", f"{BRAKED}&angle=4")],
+    ids=["line", "line-locked", "ellipse", "ellipse-locked", "s1002", "s1002-locked", "turned"],
+)
+def test_the_browser_computes_what_the_library_does(library, tab, patch, run):
+    link = run.format(patch)
+    opened(tab, link)
+    tab.evaluate("bench.begun = true")
+    for _ in range(STEPS // 20):
+        done = tab.evaluate("bench.core.ask('advance', {steps: 20, budget: 1e9}).then(({done, error}) => [done, error])")
+        assert done == [20, None]
+    text, program = native(library, link)
+    found = tab.evaluate("bench.text('csv')")
+    worst, column = difference(without_residuals(table(text)), without_residuals(table(found)))
+    print(f"{patch}: {worst:.1e} of {column}")
+    assert worst < (SAME_LOCKED if run == LOCKED else SAME)
+    residual = max(abs(a - b) for a, b in zip(table(text)["solver.energy_residual"], table(found)["solver.energy_residual"]))
+    assert residual < SAME_LOCKED
+    assert sorted(tab.evaluate("bench.text('link')").split("&")) == sorted(link.split("&"))
+    assert len(tab.evaluate("bench.text('python')").splitlines()) == len(program.splitlines())
+
+
+def test_a_run_starts_locks_is_drawn_and_pauses(tab):
+    opened(tab)
+    tab.select_option("#pace", "1")
+    tab.keyboard.press("Space")
+    tab.wait_for_function("bench.frame.get('time') > 0.1")
+    tab.keyboard.press("l")
+    tab.wait_for_function("bench.frame.get('wheel.omega') < 1e-3", timeout=20_000)
+    tab.wait_for_function("bench.frame.get('temperature.wheel_max') > 600", timeout=20_000)
+    assert tab.get_attribute("#lock", "aria-pressed") == "true"
+    count = "new Promise(done => { let n = 0; const show = bench.view.show; bench.view.show = function (frame) { n++; show.call(this, frame); };"
+    pictures, seconds = tab.evaluate(count + " setTimeout(() => { delete bench.view.show; done([n, 2]); }, 2000); })")
+    print(f"{pictures / seconds:.0f} pictures a second")
+    assert pictures / seconds > 5, "the page stands still while it computes"
+    drawn = "[...document.querySelectorAll('canvas')].map(c => new Set(c.getContext('2d').getImageData(0, 0, c.width, c.height).data).size)"
+    assert min(tab.evaluate(drawn)) > 10, "a picture is empty"
+    tab.keyboard.press("Space")
+    assert tab.inner_text("#go") == "▶ start"
+    tab.wait_for_timeout(300)
+    time = tab.evaluate("bench.frame.get('time')")
+    tab.wait_for_timeout(300)
+    assert tab.evaluate("bench.frame.get('time')") == time
+    tab.keyboard.press(".")
+    tab.wait_for_function(f"Math.abs(bench.frame.get('time') - {time} - 1e-3) < 1e-9")
+
+
+def test_a_run_is_shared_as_a_link_and_saved_as_a_table(tab):
+    opened(tab, "patch=line&rail=wet&speed=50&load=100&torque=2&at=5:rail=leaves&at=9:lock")
+    tab.keyboard.press(".")
+    tab.wait_for_function("bench.frame.get('time') > 0")
+    tab.click("#share")
+    tab.wait_for_selector("#taken[open]")
+    link = urldefrag(tab.input_value("#taken-text")).fragment
+    assert link == "patch=line&rail=wet&speed=50&load=100&torque=2&at=5:rail=leaves&at=9:lock"
+    tab.keyboard.press("Escape")
+    with tab.expect_download() as download:
+        tab.click("#csv")
+    assert len(table(Path(download.value.path()).read_text())["time"]) == 2
+    tab.click("#python")
+    tab.wait_for_selector("#taken[open]")
+    assert f"#{link}" in tab.input_value("#taken-text")
+
+
+def test_a_link_that_is_none_is_told_and_the_page_goes_on(tab):
+    opened(tab, "patch=square")
+    assert "possible: line, ellipse, s1002" in tab.inner_text("#message")
+    assert tab.get_attribute("#message", "class") == "bad"
+    assert tab.evaluate("bench.text('link')").startswith("patch=line")
+
+
+@pytest.mark.parametrize("width", [390, 800, 1400, 3840])
+def test_nothing_is_wider_than_the_window(tab, width):
+    tab.set_viewport_size({"width": width, "height": 900})
+    opened(tab)
+    assert tab.evaluate("document.documentElement.scrollWidth") <= width
