@@ -117,7 +117,7 @@ built: $(BUILT)
 packed: $(FMU) $(FMU3)
 
 test-programs: $(COACH)
-	$(RELEASE_CARGO) test --release --locked --quiet --no-run -p wheelrail -p wheelrail-slave --lib --bins --tests
+	$(RELEASE_CARGO) test --release --locked --quiet --no-run -p wheelrail -p wheelrail-slave -p wheelrail-bench --lib --bins --tests
 	$(RELEASE_CARGO) test --release --locked --quiet --no-run -p wheelrail-thesis --lib --bins --tests
 
 test-tools:

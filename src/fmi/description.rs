@@ -19,7 +19,7 @@ pub const DEFAULT_STEP_SIZE: f64 = 1e-3;
 
 const DESCRIPTION: &str = "Transient rolling contact of an elastic wheel on an elastic rail: plane finite elements in \
     a moving frame, exact Coulomb friction. x in travel direction, y up, omega > 0 rolls forward; contact forces act \
-    on the wheel. Plane model: no lateral force, no spin.";
+    on the wheel. Plane bodies; with contact.lateral the contact has lateral creepage and spin.";
 
 /// Date of the last change of the interface. A date of the build would make equal builds unequal.
 const GENERATED: &str = "2026-11-26T00:00:00Z";
