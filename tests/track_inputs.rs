@@ -329,7 +329,7 @@ fn on_long_waves(h: f64, given: bool) -> (Vec<f64>, u64) {
 }
 
 #[test]
-fn a_smooth_track_in_steps_of_ten_milliseconds_takes_hardly_more_internal_steps_without_rates_than_with_them() {
+fn a_smooth_track_in_steps_of_ten_milliseconds_takes_half_as_many_internal_steps_again_without_rates() {
     let (exact, _) = on_long_waves(5e-4, true);
     let amplitude = exact.iter().fold(0.0f64, |most, force| most.max(force.abs()));
     let [(given, steps_given), (found, steps_found)] = [true, false].map(|given| on_long_waves(1e-2, given));
@@ -341,7 +341,7 @@ fn a_smooth_track_in_steps_of_ten_milliseconds_takes_hardly_more_internal_steps_
     println!(
         "rms errors over the amplitude of {amplitude} N: {errors:.3?}, internal steps {steps_given}, {steps_found}"
     );
-    assert!(steps_found as f64 <= 1.3 * steps_given as f64);
+    assert!(steps_found as f64 <= 1.6 * steps_given as f64);
     assert!(errors.iter().all(|error| *error < 0.03));
 }
 
