@@ -118,6 +118,25 @@ fn without_lateral_creepage_and_spin_forces_are_those_of_the_longitudinal_patch(
     }
 }
 
+#[test]
+fn nothing_slips_and_warms_where_it_sticks() {
+    let spaces = HalfSpaces::sideways(1.0, 7);
+    let found = steady(&spaces, [-5e-4, -1e-3, 0.2]);
+    for line in &found {
+        let traction = &line.traction;
+        let still = |i: usize| traction.slip.value[i] == 0.0 && traction.lateral_slip.value[i] == 0.0;
+        let x = &traction.slip.x;
+        let length = x[x.len() - 1] - x[0];
+        let stuck: f64 =
+            (1..x.len()).filter(|&i| still(i) && still(i - 1)).map(|i| x[i] - x[i - 1]).sum::<f64>() / length;
+        println!("{stuck:.3} of the length for {:.3} of the patch", traction.stick_fraction);
+        assert!((stuck - traction.stick_fraction).abs() < 0.12);
+        assert!((0..x.len()).all(|i| !still(i) || traction.friction.dissipation.value[i] == 0.0));
+    }
+    let sticks = |line: usize| found[line].traction.stick_fraction;
+    assert!((0..7).all(|line| sticks(line) < 1.0) && sticks(3) > 0.2);
+}
+
 /// Kalker's coefficients for ν = 0.3 of CONTACT on 61 × 41 elements, secants up to 1 % below the slope at rest: C₁₁, C₂₂, C₂₃
 /// and C₃₃.
 #[test]

@@ -173,7 +173,7 @@ fn random_steady_states_are_found_from_a_wheel_that_touches() {
         for seed in 0..200 {
             let mut random = Random(seed);
             let load = LOAD * random.logarithmic(0.05, 3.0);
-            let mut creepage = || SATURATION * random.logarithmic(0.01, 20.0) * [-1.0, 1.0][random.below(2) as usize];
+            let mut creepage = || SATURATION * random.logarithmic(0.01, 20.0) * [-1.0, 1.0][random.below(2)];
             let (xi, eta) = (creepage(), creepage());
             let (speed, spin) = (random.logarithmic(0.1, 50.0), random.between(-3.0, 3.0));
             let mut motion = held(&spaces, [1.0 + 0.5 * xi, 1.0 - 0.5 * xi, eta].map(|part| speed * part));

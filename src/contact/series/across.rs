@@ -50,6 +50,13 @@ impl SeriesLine<'_> {
         slip
     }
 
+    /// True if the point of the shear next to the place x \[m] sticks.
+    pub fn sticks_at(&self, x: f64) -> bool {
+        let Arch { centre, half_width, .. } = self.tractions.pressure;
+        let place = self.upstream() * (x - centre) / half_width;
+        self.tractions.directions.is_some_and(|states| states[self.constants.of_points.nearest(place)] == 0)
+    }
+
     /// Places of the shear across \[m], and the forces that belong to them [N/m].
     pub fn slipping_across(&self) -> ([f64; POWER], [f64; POWER]) {
         let (tables, Arch { centre, half_width, .. }) = (&self.constants.tables, self.tractions.lateral);

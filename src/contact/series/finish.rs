@@ -195,9 +195,11 @@ fn write_ports(line: &SeriesLine, traction: &mut Traction) {
     }
 }
 
-/// Profiles of shear and slip across at the places of those along, whose dissipation they add to.
+/// Profiles of shear and slip across at the places of those along, whose dissipation they add to. Next to points that stick
+/// nothing slips; between them the series leave a little.
 fn write_lateral_profiles(line: &SeriesLine, traction: &mut Traction) {
-    let Traction { lateral_shear, lateral_slip, shear, friction: SolvedFriction { dissipation, .. }, .. } = traction;
+    let Traction { lateral_shear, lateral_slip, shear, slip, friction: SolvedFriction { dissipation, .. }, .. } =
+        traction;
     [&mut *lateral_shear, lateral_slip].into_iter().for_each(Piecewise::clear);
     if !line.is_sideways() {
         return;
@@ -207,9 +209,11 @@ fn write_lateral_profiles(line: &SeriesLine, traction: &mut Traction) {
         let ([q], [s]) = (line.tractions.lateral.density(&[x]), line.lateral_slip(&[x], true));
         let ends = i == 0 || i == last;
         let (q, s) = if ends { (0.0, 0.0) } else { (q, s) };
+        let sticks = line.sticks_at(x);
         lateral_shear.push(x, q);
-        lateral_slip.push(x, s);
-        dissipation.value[i] = (dissipation.value[i] - q * s).max(0.0);
+        lateral_slip.push(x, if sticks { 0.0 } else { s });
+        dissipation.value[i] = if sticks { 0.0 } else { (dissipation.value[i] - q * s).max(0.0) };
+        slip.value[i] = if sticks { 0.0 } else { slip.value[i] };
     }
 }
 
