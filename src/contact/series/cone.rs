@@ -83,17 +83,29 @@ impl SlipRows {
         self
     }
 
-    fn slips(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
-        std::array::from_fn(|c| {
-            let mut slips = self.known[c];
-            for (by, q) in self.by_shear[c].iter().zip(&shear[c]) {
+    /// Slips by a shear alone [m/s].
+    pub fn slips_of(&self, shear: &Vectors) -> Vectors {
+        self.beside(Vectors::default(), shear)
+    }
+
+    /// Slips by a shear beside given ones.
+    fn beside(&self, mut slips: Vectors, shear: &Vectors) -> Vectors {
+        for ((slips, by_shear), shear) in slips.iter_mut().zip(&self.by_shear).zip(shear) {
+            for (by, q) in by_shear.iter().zip(shear) {
                 slips.iter_mut().zip(by).for_each(|(slip, by)| *slip += by * q);
             }
-            for (power, value) in self.powers.iter().zip(&others[POINTS * c..]) {
+        }
+        slips
+    }
+
+    fn slips(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
+        let mut slips = self.beside(self.known, shear);
+        for (slips, others) in slips.iter_mut().zip(others.as_chunks::<POINTS>().0) {
+            for (power, value) in self.powers.iter().zip(others) {
                 slips.iter_mut().zip(power).for_each(|(slip, power)| *slip += value * power);
             }
-            slips
-        })
+        }
+        slips
     }
 }
 
@@ -178,17 +190,6 @@ impl ConeProblem {
     pub fn add(&mut self, slips: &Vectors) {
         let known = self.rows[0].known.as_flattened_mut();
         known.iter_mut().zip(slips.as_flattened()).for_each(|(known, slip)| *known += slip);
-    }
-
-    /// Slips by a shear alone [m/s].
-    pub fn slips_of(&self, shear: &Vectors) -> Vectors {
-        std::array::from_fn(|c| {
-            let mut slips = [0.0; COUNT];
-            for (by, q) in self.rows[0].by_shear[c].iter().zip(&shear[c]) {
-                slips.iter_mut().zip(by).for_each(|(slip, by)| *slip += by * q);
-            }
-            slips
-        })
     }
 
     /// Force [N/m] by which the points resist a unit of slip, each for itself [kg/(m s)].

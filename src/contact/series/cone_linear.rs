@@ -121,7 +121,7 @@ impl LinearLine {
                 given[c][i] = if turn.is_finite() { -outward * direction[c] } else { -excess[c] };
             }
         }
-        let slips = problem.slips_of(&given);
+        let slips = problem.rows[0].slips_of(&given);
         let missing = |unknown: &Unknown| {
             let i = unknown.point;
             let missing = match verdict.points[i] {

@@ -124,6 +124,11 @@ impl SeriesState {
         let now = self.tractions;
         let Past::Series(SeriesPast { tractions: earlier, .. }) = &self.past[1] else { return now };
         let (ratio, share) = (time.step_ratio(), now.share());
+        if now.is_sideways() && now.same_branch(earlier) {
+            let onwards = |now: &Arch, earlier: &Arch| Arch { terms: now.onwards(earlier, ratio).terms, ..*now };
+            let lateral = onwards(&now.lateral, &earlier.lateral);
+            return Tractions { stick: onwards(&now.stick, &earlier.stick), lateral, ..now };
+        }
         let change = ratio * (share - earlier.share());
         // Where nearly all or nothing sticks, slip may come from the other side or go.
         let steady = change.abs() <= EXPECTED && (SURE..=1.0 - SURE).contains(&(share + change));
@@ -137,6 +142,11 @@ impl SeriesState {
 }
 
 impl Tractions {
+    /// True if the shear has a lateral part.
+    fn is_sideways(&self) -> bool {
+        self.lateral.terms != Arch::default().terms
+    }
+
     /// Half-length of the stretch that sticks over that of the patch \[1].
     pub fn share(&self) -> f64 {
         let sticks =
