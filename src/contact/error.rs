@@ -10,7 +10,7 @@ pub enum ContactError {
         iterations: usize,
     },
     /// Loads or motions that cannot be balanced.
-    #[error("singular contact equations with {closed} closed nodes")]
+    #[error("the contact equations of {closed} closed nodes are singular")]
     Singular {
         /// Nodes in contact.
         closed: usize,
@@ -24,15 +24,15 @@ pub enum ContactError {
         load: f64,
     },
     /// The solver on a single patch does not describe this contact.
-    #[error("the contact is no single smooth patch: {reason}")]
+    #[error("the contact is not a single smooth patch: {reason}")]
     Unsuited {
         /// Property of the contact that it cannot describe.
         reason: &'static str,
     },
     /// A contact that takes no lateral creepage and spin.
     #[error(
-        "{reason}, and such a contact takes no lateral creepage and spin: set contact.lateral to false, or change what \
-         stands in the way"
+        "{reason}, and such a contact takes no lateral creepage and spin: set contact.lateral to false, or remove \
+         this obstacle"
     )]
     Sideways {
         /// Obstacle, with the parameter that puts it there.

@@ -44,7 +44,7 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
 
 /// Advice where a contact is no single smooth patch.
 fn grid() -> String {
-    "set solver.contact = auto, which takes a grid where there is no such patch, or = grid".to_owned()
+    "set solver.contact = auto, which takes a grid where there is no such patch, or solver.contact = grid".to_owned()
 }
 
 /// The message of a start that failed under the inputs, with advice.
@@ -53,7 +53,7 @@ pub fn failed_start(error: &StepError, config: &Config, inputs: &Inputs) -> Stri
         StepError::ZoneExceeded { load, zone: reached } => {
             zone(*load, config).or_else(|| uneven(*reached, config)).unwrap_or_else(|| {
                 format!(
-                    "the load is one that the zone carries, so a higher model.nominal_load does not help: check \
+                    "the zone carries this load, so a higher model.nominal_load does not help: check \
                  drive.displacement, initial.creepage (now {}), thermal.wheel_excess (now {:?} K) and rail.length (now \
                  {:?} m)",
                     creepage(config),
@@ -64,7 +64,7 @@ pub fn failed_start(error: &StepError, config: &Config, inputs: &Inputs) -> Stri
         }
         StepError::BeyondAdhesion { .. } => {
             "start with gentler drive.moment, drive.force and drive.lateral_force and bring them to their values in the first \
-             steps, or set initial.creepage, with which the run starts sliding and accelerates by what adhesion does not carry"
+             steps, or set initial.creepage: then the run starts sliding, and the force that adhesion does not carry accelerates it"
                 .to_owned()
         }
         StepError::Unpressed { .. } => {
@@ -77,7 +77,7 @@ pub fn failed_start(error: &StepError, config: &Config, inputs: &Inputs) -> Stri
         }
         StepError::Motion(_) => format!(
             "choose initial.velocity (now {:?} m/s) and initial.creepage (now {}), or the prescribed velocities, within \
-             it",
+             this range",
             config.initial.velocity,
             creepage(config)
         ),
@@ -96,8 +96,8 @@ const WIDER: f64 = 1.5;
 fn uneven(zone: f64, config: &Config) -> Option<String> {
     profiles(config).map(|profiles| {
         format!(
-            "{profiles} is too deep or too long for it: the surfaces touch beyond; {}, or make the profile shallower or shorter. If \
-             the zone stays as it is, wheel and rail have no more room for it",
+            "{profiles} is too deep or too long for the zone: the surfaces touch beyond it; {}, or make the profile shallower or \
+             shorter. If a larger mesh.reach does not widen the zone, wheel and rail have no more room for it",
             wider(zone, config)
         )
     })
@@ -113,7 +113,9 @@ fn profiles(config: &Config) -> Option<String> {
 /// The advice `otherwise` where no contact state is found, and what helps if a profile is the reason.
 fn unsettled(otherwise: String, config: &Config) -> String {
     match profiles(config) {
-        Some(profiles) => format!("{otherwise}; or make {profiles} less deep and less steep, which may be the reason"),
+        Some(profiles) => {
+            format!("{otherwise}; or make {profiles} less deep and less steep: the profile may be the reason")
+        }
         None => otherwise,
     }
 }

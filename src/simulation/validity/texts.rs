@@ -70,15 +70,15 @@ fn patch(value: f64, bound: f64) -> String {
 fn zone(value: f64, bound: f64) -> String {
     format!(
         "contact load {value:.0} N is above {ZONE_LOAD:.0} x model.nominal_load = {bound:.0} N, for which the \
-         contact zone is laid out: the patch may reach its end; raise model.nominal_load and set drive.load, \
-         which follows it unless set"
+         contact zone is laid out: the patch may reach the end of the zone; raise model.nominal_load and set \
+         drive.load, which follows it unless set"
     )
 }
 
 fn reach(simulation: &Simulation, value: f64, bound: f64) -> String {
     format!(
-        "the surfaces touch {:.1} mm from the contact point, and steps in which they touch beyond {:.1} mm are refused: a wider \
-         flat, patch or hole has no room; set mesh.reach (now {:?} m) to {:.3} m or more",
+        "the surfaces touch {:.1} mm from the contact point, and steps in which they touch beyond {:.1} mm are refused: there \
+         is no room for a wider flat, patch or hole; set mesh.reach (now {:?} m) to {:.3} m or more",
         1e3 * value,
         1e3 * bound / NEAR_END,
         simulation.model().config().mesh.reach,
@@ -92,8 +92,8 @@ fn yielding(simulation: &Simulation, value: f64, bound: f64) -> String {
         false => "set physics.yielding",
     };
     format!(
-        "peak pressure {:.0} MPa is above {:.0} MPa, which steel of material.yield_strength carries: the bodies \
-         stay elastic, and patch, forces and temperatures are not those of steel that flows; {remedy}, \
+        "peak pressure {:.0} MPa is above {:.0} MPa, the most that steel of material.yield_strength carries: the \
+         bodies stay elastic, and patch, forces and temperatures are not those of steel that yields; {remedy}, \
          or check drive.load and the size of the patch (model.contact_width, contact.rail_lateral_radius, or \
          contact.rows and contact.rows_load)",
         value * 1e-6,
@@ -104,8 +104,8 @@ fn yielding(simulation: &Simulation, value: f64, bound: f64) -> String {
 fn softening(value: f64, bound: f64) -> String {
     format!(
         "steel under the contact is so hot that it would yield at {:.0} MPa, and the patch would outgrow the contact \
-         zone; it is held together at {:.0} MPa: half-width, pressure and flattening further on are no more than a \
-         hint; end the slide earlier",
+         zone; its yield pressure is therefore kept at {:.0} MPa: half-width, pressure and flattening are only rough \
+         estimates from here on; end the slide earlier",
         value * 1e-6,
         bound * 1e-6
     )
@@ -114,16 +114,16 @@ fn softening(value: f64, bound: f64) -> String {
 fn melting(value: f64, bound: f64) -> String {
     format!(
         "contact temperature {value:.0} K is above material.solidus = {bound:.0} K: nothing melts without \
-         material.latent_heat, and temperatures further on are too high; set it, end the slide earlier, or let \
+         material.latent_heat, and temperatures are too high from here on; set it, end the slide earlier, or let \
          the friction fall with friction.softening or friction.falling_ratio"
     )
 }
 
 fn stick_slip(simulation: &Simulation, value: f64, bound: f64) -> String {
     format!(
-        "friction falls with the slip of a sliding wheel, and its torsion of {:.0} rad/s turns by {value:.2} rad \
-         in an internal step, more than {bound:.1}: stick-slip that may arise is damped by the time formula; \
-         lower solver.max_step to {:.1e} s to see it",
+        "friction falls with the slip of a sliding wheel, and the phase of its torsional vibration of {:.0} rad/s \
+         advances by {value:.2} rad in an internal step, more than {bound:.1}: the time formula damps stick-slip that \
+         may arise; lower solver.max_step to {:.1e} s to see it",
         simulation.model().rolling.torsion,
         0.9 * bound / simulation.model().rolling.torsion
     )
@@ -132,7 +132,7 @@ fn stick_slip(simulation: &Simulation, value: f64, bound: f64) -> String {
 fn chatter(simulation: &Simulation, value: f64, bound: f64) -> String {
     format!(
         "friction falls with the slip so steeply that in internal steps below about {:.1} us, now {:.1} us, several \
-         coefficients fit and friction may jump from step to step; set friction.memory_length (now {:?} m) to {:?} m",
+         coefficients are possible and friction may jump from step to step; set friction.memory_length (now {:?} m) to {:?} m",
         1e6 * bound,
         1e6 * value,
         simulation.tuning().memory_length,
@@ -144,7 +144,7 @@ fn waves(simulation: &Simulation, value: f64, bound: f64) -> String {
     format!(
         "wheel.profile or rail.profile has waves of {:.2} mm here, shorter than {FEWEST_PER_WAVE:.0} elements of the \
          contact, {:.2} mm: forces are inexact, over a hole of half that length by up to {:.2} % of the load; raise \
-         mesh.grid_elements_per_half_width, or leave such waves out, which the patch evens out",
+         mesh.grid_elements_per_half_width, or leave out such waves: the patch evens them out",
         1e3 * value,
         1e3 * bound,
         1e2 * simulation.error_over_a_hole(0.5 * value)
@@ -153,9 +153,9 @@ fn waves(simulation: &Simulation, value: f64, bound: f64) -> String {
 
 fn sampling(value: f64, bound: f64) -> String {
     format!(
-        "an internal step takes the wheel {:.2} mm on, more than a quarter, {:.2} mm, of the shortest wave of \
-         wheel.profile and rail.profile here: forces are inexact; lower solver.max_step, or set it to 0, which \
-         chooses it by the profile",
+        "the wheel travels {:.2} mm in an internal step, more than a quarter, {:.2} mm, of the shortest wave of \
+         wheel.profile and rail.profile here: forces are inexact; lower solver.max_step, or set it to 0, so that \
+         the profile determines it",
         1e3 * value,
         1e3 * bound
     )
@@ -163,8 +163,8 @@ fn sampling(value: f64, bound: f64) -> String {
 
 fn track(value: f64, bound: f64) -> String {
     format!(
-        "rail.elevation changes between communication points as no smooth track does: its corners are blows of some \
-         {value:.0} N (more than {bound:.0} N) to the wheel, which add up where they come with its own frequency; give \
+        "rail.elevation changes between communication points as no smooth track does: its corners hit the wheel with some \
+         {value:.0} N (more than {bound:.0} N), and these blows add up if they come at a natural frequency of the wheel; give \
          rail.elevation_rate, or take communication steps of a thirtieth of the shortest wave of the track"
     )
 }
@@ -175,14 +175,15 @@ fn energy(simulation: &Simulation, value: f64) -> String {
     let stays = if simulation.model().config().damping.modal {
         ""
     } else {
-        ", and the force errs less; without damping.modal waves of high frequency lose their energy in steps of any length"
+        ": the error of the force becomes smaller, but without damping.modal waves of high frequency lose their energy in \
+         steps of any length"
     };
     let off = if force < load { format!("at most {force:.3e} N") } else { "as much as the nominal load".into() };
     format!(
-        "energy of {:.1} % of what has been dissipated or is stored is missing (solver.energy_residual), {missing:.3} J: the \
-         contact is made, lost or loaded faster than internal steps of {:.1e} s follow, or load and parameters are beyond \
-         what the model is made for; the contact force is inexact, too, by {off} while the wheel stays on the \
-         rail, and strikes after a flight come at other times besides; lower solver.tolerance (now {:?}) or \
+        "{:.1} % of the energy that has been dissipated or is stored is missing (solver.energy_residual), {missing:.3} J: the \
+         contact is made, lost or loaded faster than internal steps of {:.1e} s can follow, or the model is not made for \
+         this load and these parameters; the contact force is inexact, too, by {off} while the wheel stays on the \
+         rail, and impacts after a flight come at inexact times; lower solver.tolerance (now {:?}) or \
          solver.max_step (now {:?} s){stays}",
         1e2 * value,
         simulation.state().clock.last_step,
@@ -194,7 +195,7 @@ fn energy(simulation: &Simulation, value: f64) -> String {
 fn effort(simulation: &Simulation, value: f64) -> String {
     format!(
         "the last communication step took {value:.0} internal steps, the last one of {:.1e} s, and such steps take long to \
-         compute: the contact changes fast, or solver.tolerance (now {:?}) or solver.max_step (now {:?} s) ask for them",
+         compute: the contact changes fast, or solver.tolerance (now {:?}) or solver.max_step (now {:?} s) requires them",
         simulation.state().clock.last_step,
         simulation.tuning().tolerance,
         simulation.tuning().max_step
@@ -204,8 +205,8 @@ fn effort(simulation: &Simulation, value: f64) -> String {
 fn limited(simulation: &Simulation, value: f64) -> String {
     format!(
         "the errors of {value:.0} of {} internal steps of the last communication step exceed solver.tolerance = {:?}, because \
-         solver.max_internal_steps = {} allows no shorter ones (solver.limited_steps): what happens here, as wheels lock \
-         or lift off, is less exact; raise it",
+         solver.max_internal_steps = {} allows no shorter ones (solver.limited_steps): what happens here, as when wheels \
+         lock or lift off, is less exact; raise solver.max_internal_steps",
         simulation.outputs().internal_steps,
         simulation.tuning().tolerance,
         simulation.tuning().max_internal_steps
