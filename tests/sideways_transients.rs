@@ -24,6 +24,8 @@ struct Step {
 
 /// Creepage at which all slips, about \[1].
 const SATURATION: f64 = 5e-3;
+/// Cost of a step but for its linear laws, over that of one of them (instructions) \[1].
+const OTHER_COST: f64 = 3.0;
 /// Width of the bodies [m].
 const WIDTH: f64 = 0.05;
 
@@ -76,7 +78,7 @@ fn next(random: &mut Random, spaces: &HalfSpaces, before: Step) -> Step {
     step
 }
 
-/// Numbers of steps, failures and steps of Newton's method of random transients.
+/// Numbers of steps, failures and linear laws of random transients.
 #[derive(Debug, Default)]
 struct Count {
     steps: usize,
@@ -123,7 +125,7 @@ impl Count {
         let mean = self.newton as f64 / self.steps as f64;
         println!("{what}: {self:?}, {mean:.2} a step");
         assert!(self.failures == 0 && self.beyond < 1e-9 && self.least_power > -0.03);
-        assert!((self.most as f64) < most * mean);
+        assert!(self.most as f64 + OTHER_COST < most * (mean + OTHER_COST));
     }
 }
 

@@ -225,7 +225,7 @@ def main(argv=None):
             run(options)
         sys.stdout.flush()
     except BrokenPipeError:  # who read what is printed has gone, such as `head`
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        drop_output()
         sys.exit(1)
     except (BadFile, FileNotFoundError) as error:
         end(error, 2)
@@ -235,9 +235,18 @@ def main(argv=None):
         end("stopped", 130)
 
 
+def drop_output():
+    """Sends what is still to be printed nowhere: Python would try once more at its end, and end with 120."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def end(error, code):
     """Ends with one line."""
     print(f"error: {' '.join(str(error).split())}", file=sys.stderr)
+    try:
+        sys.stdout.flush()
+    except OSError:
+        drop_output()
     sys.exit(code)
 
 

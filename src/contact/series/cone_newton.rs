@@ -53,7 +53,7 @@ pub struct Newton<'a> {
     /// Slips by all but the known one, as polynomials.
     slips: Vec<[f64; SLIPS]>,
     pub verdicts: Vec<ConeVerdict>,
-    /// What the balances of the free motions miss [N/m, N].
+    /// Missing parts of the balances of the free motions [N/m, N].
     unbalance: Vec<f64>,
     /// Linear law of before.
     pub linear: Option<Linearised>,

@@ -20,11 +20,11 @@ const MOST: usize = 40;
 /// relative change that ends them \[1].
 const PRESSED: usize = 8;
 const CLOSE: f64 = 1e-10;
-/// Violation of friction that ends Newton's method \[1], and the share of that before which does: pressures that change
-/// with the shear bring back as much.
+/// Violation of friction that ends Newton's method \[1], and the share of that before which does: far less than what the
+/// change of the pressure with the shear brings back.
 const TOLERANCE: f64 = 1e-12;
 const ROUGHEST: f64 = 1e-2;
-const SHARE: f64 = 1e-3;
+const SHARE: f64 = 1e-5;
 
 /// Finds tractions and motions of lines that slip along and across.
 pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
