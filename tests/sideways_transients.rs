@@ -101,8 +101,8 @@ impl Count {
         let (mut scratch, spin) = (ContactScratch::default(), Spin { per_travel: spin, per_rotation: 0.0 });
         let laws = (time, Friction::constant(FRICTION));
         let found = spaces.solve_with(load, motion, spin, laws, start, &mut scratch);
-        self.newton += scratch.newton_steps;
-        self.most = self.most.max(scratch.newton_steps);
+        self.newton += scratch.linear_laws;
+        self.most = self.most.max(scratch.linear_laws);
         self.steps += 1;
         match found {
             Ok(found) => {

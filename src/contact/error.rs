@@ -31,8 +31,8 @@ pub enum ContactError {
     },
     /// A contact that takes no lateral creepage and spin.
     #[error(
-        "{reason}, and such a contact takes no lateral creepage and spin: set contact.lateral to false, or remove \
-         this obstacle"
+        "{reason}, and such a contact takes no lateral creepage and spin: set contact.lateral to false, or avoid \
+         this case"
     )]
     Sideways {
         /// Obstacle, with the parameter that puts it there.

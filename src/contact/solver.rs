@@ -138,6 +138,6 @@ pub struct ContactScratch {
     pub active_set: ActiveSetScratch,
     /// Equations of all lines on series.
     pub series: DenseSystem,
-    /// Steps of Newton's method that the last contact with lateral tractions took.
-    pub newton_steps: usize,
+    /// Times that the law of friction was made linear for the last contact with lateral tractions.
+    pub linear_laws: usize,
 }

@@ -223,7 +223,7 @@ impl<'a> Newton<'a> {
             if made > MOST || (largest / before[0] - 1.0).abs() < REPEATED {
                 return false;
             }
-            contact.newton_steps += 1;
+            contact.linear_laws += 1;
             self.linear = Linearised::new(&self.problem(), contact, &self.verdicts);
             if self.step(contact).is_none() || self.largest(contact) > LOST {
                 return false;

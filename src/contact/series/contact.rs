@@ -34,8 +34,8 @@ pub struct SeriesContact<'a> {
     relaid: Relaid<'a>,
     /// Equations of all lines.
     pub system: DenseSystem,
-    /// Steps of Newton's method so far.
-    pub newton_steps: usize,
+    /// Times that the law of friction along and across was made linear.
+    pub linear_laws: usize,
     /// Times that a patch seemed to open.
     pub opened: usize,
     /// Resistance of motions that are drawn to others [kg/(m s), kg m/s], and how far those are from the present ones.
@@ -49,7 +49,7 @@ impl<'a> SeriesContact<'a> {
         let (pulls, moments, system, drawn) = Default::default();
         let by_powers = displaced_by_powers(&lines[0].problem.line.bodies, &lines[0].constants.points);
         let mut contact =
-            Self { lines, rigid, pulls, moments, by_powers, relaid, system, newton_steps: 0, opened: 0, drawn };
+            Self { lines, rigid, pulls, moments, by_powers, relaid, system, linear_laws: 0, opened: 0, drawn };
         contact.share_pulls();
         contact
     }

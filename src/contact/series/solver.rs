@@ -135,9 +135,9 @@ impl SeriesSolver {
             found.history.copy_from(&start.history);
             found.ports = start.ports;
         }
-        let ContactScratch { series, newton_steps, .. } = scratch;
+        let ContactScratch { series, linear_laws, .. } = scratch;
         laws::solve(&self.constants, problem, (&begun, series), |contact| {
-            *newton_steps = contact.newton_steps;
+            *linear_laws = contact.linear_laws;
             for ((at, line), found) in contact.lines.iter().enumerate().zip(&mut *found) {
                 let ContactState { traction, history, energy, solver, .. } = &mut **found;
                 let SolverState::Series(state) = solver else { continue };
