@@ -256,6 +256,27 @@ fn a_skew_slide_flashes_as_a_straight_one_of_the_same_speed() {
     assert!((other / power - 1.0).abs() < 2e-2 && (skew * power / (straight * other) - 1.0).abs() < 1e-2);
 }
 
+/// The load falls to nothing within 20 ms, so that the wheel flies, and comes back within 10 ms: it bounces a few times.
+#[test]
+fn a_wheel_that_slips_sideways_flies_lands_and_bounces() {
+    for lateral in [Lateral::Velocity, Lateral::Force] {
+        let model = sideways(7, |config| config.tuning.tolerance = 2e-3);
+        let mut inputs = Inputs::rolling(model.config());
+        (inputs.lateral, inputs.drive.lateral_velocity) = (lateral, 0.05);
+        let seen = run(&model, inputs, (1e-3, 120), |inputs, t| {
+            let share = (1.0 - t / 0.02).max(0.0) + ((t - 0.05) / 0.01).clamp(0.0, 1.0);
+            inputs.drive.load = 1e5 * share;
+            inputs.drive.lateral_force = 5e3 * share;
+        });
+        let touches: Vec<_> = seen.iter().map(|outputs| outputs.contact_force_y > 0.0).collect();
+        let landings = touches.windows(2).filter(|pair| !pair[0] && pair[1]).count();
+        let (last, most) = (&seen[120], seen.iter().fold(0.0, |most: f64, it| most.max(it.contact_force_y)));
+        println!("{lateral:?}: {landings} landings, {most:.3e} N at most, {:.3e} N at the end", last.contact_force_y);
+        assert!((1..20).contains(&landings) && most > 1.5e5 && most < 4e5);
+        assert!(seen.iter().all(|it| it.contact_force_z.abs() <= 0.5 * it.contact_force_y + 1e-6));
+    }
+}
+
 #[test]
 fn inputs_to_the_side_are_refused_where_the_contact_has_none() {
     let along = sideways(5, |config| config.contact.lateral = false);

@@ -18,7 +18,7 @@ use crate::contact::error::ContactError;
 const MOST: usize = 40;
 /// Iterations of the normal problem at most between those of the tangential one, which take ten times as long, and the
 /// relative change that ends them \[1].
-const PRESSED: usize = 8;
+const PRESSED: usize = 40;
 const CLOSE: f64 = 1e-10;
 /// Violation of friction that ends Newton's method \[1], and the share of that before which does: far less than what the
 /// change of the pressure with the shear brings back.

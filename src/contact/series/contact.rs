@@ -38,6 +38,8 @@ pub struct SeriesContact<'a> {
     pub linear_laws: usize,
     /// Times that a patch seemed to open.
     pub opened: usize,
+    /// True if some lines may be apart.
+    pub partly: bool,
     /// Resistance of motions that are drawn to others [kg/(m s), kg m/s], and how far those are from the present ones.
     pub drawn: PerAxis<[f64; 2]>,
 }
@@ -48,8 +50,19 @@ impl<'a> SeriesContact<'a> {
         relaid.problem.layouts.inspect(|layouts| layouts.begin());
         let (pulls, moments, system, drawn) = Default::default();
         let by_powers = displaced_by_powers(&lines[0].problem.line.bodies, &lines[0].constants.points);
-        let mut contact =
-            Self { lines, rigid, pulls, moments, by_powers, relaid, system, linear_laws: 0, opened: 0, drawn };
+        let mut contact = Self {
+            lines,
+            rigid,
+            pulls,
+            moments,
+            by_powers,
+            relaid,
+            system,
+            linear_laws: 0,
+            opened: 0,
+            partly: false,
+            drawn,
+        };
         contact.share_pulls();
         contact
     }

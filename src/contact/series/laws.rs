@@ -93,7 +93,13 @@ fn next(contact: &SeriesContact, problem: &ContactProblem, states: PerAxis<Brake
 /// Finds tractions along and across and motions, or motions without tractions where no line touches.
 fn sideways(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let Err(error) = cone_search::solve(contact) else { return Ok(()) };
-    if matches!(open::solve(contact), Ok(true)) { Ok(()) } else { Err(error) }
+    if matches!(open::solve(contact), Ok(true)) {
+        return Ok(());
+    }
+    // A wheel that just touches may do so on some of its lines.
+    contact.lines.iter_mut().for_each(SeriesLine::begin_anew);
+    (contact.opened, contact.partly) = (0, true);
+    cone_search::solve(contact).map_err(|_| error)
 }
 
 /// Finds tractions and motions, and the friction coefficients that the laws of all lines give to their slips.

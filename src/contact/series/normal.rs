@@ -12,8 +12,14 @@ use std::f64::consts::PI;
 
 /// Largest factor by which an iteration changes the load.
 const LARGEST_FACTOR: f64 = 4.0;
-/// Times that a patch may seem to open, at most.
+/// Part of the zone that a patch may take while its load still jumps, by more than a factor \[1].
+const ROOM: f64 = 0.95;
+const JUMPS: f64 = 1.5;
+/// Part of the load with which a line may stay although its surfaces are apart \[1].
+const LIGHT: f64 = 1e-6;
+/// Times that a patch may seem to open, at most, and beside lines that hold the wheel.
 const MOST_OPENED: usize = 6;
+const MOST_BESIDE: usize = 24;
 
 /// Gap in the middle of a line, and how it depends on loads.
 pub struct MiddleGap {
@@ -66,6 +72,22 @@ impl SeriesLine<'_> {
     /// Number of the terms of the pressure: lines that no grid takes over follow all that is known of hot layers.
     fn pressure_terms(&self) -> usize {
         if self.is_sideways() && self.layers.is_some() { SLOPE - 1 } else { PRESSURE }
+    }
+
+    /// Factor of the load of a line that nothing else takes over, where patches have seemed to open so many times before: loads
+    /// may fall to a part of themselves at once, patches that jump stay within the zone, and where some lines may be apart,
+    /// given the `load` of all [N/m], these carry next to nothing.
+    fn eased(&self, factor: f64, load: Option<f64>, opened: usize) -> f64 {
+        let pressure = &self.tractions.pressure;
+        if factor > JUMPS {
+            let room = ROOM * (self.constants.points.reach - pressure.centre.abs()) / pressure.half_width;
+            return factor.min(room.powi(2).max(JUMPS));
+        }
+        match factor <= 0.0 {
+            true if load.is_some_and(|load| self.problem.line.share * self.load() <= LIGHT * load) => 1.0,
+            true if opened < load.map_or(MOST_OPENED, |_| MOST_BESIDE) => 1.0 / LARGEST_FACTOR,
+            _ => factor,
+        }
     }
 
     /// Gap in the middle under the present load.
@@ -141,17 +163,19 @@ impl SeriesContact<'_> {
             (change, -(gap * -balance_load + left * by_load) / determinant)
         };
         let by_height = if motion.target().is_some() { 1.0 } else { by_height };
-        let mut opens = false;
+        let (mut opens, load) = (false, self.partly.then(|| self.load()));
         for ((line, middle), factor) in self.lines.iter().zip(&middles).zip(factors) {
             let own = match self.lines.len() {
                 1 => change / line.problem.line.share,
                 _ => -(middle.gap + smooth * change + by_height * rise) / middle.own,
             };
             *factor = 1.0 + own / line.load();
-            // Where nothing else takes the contact over the search goes on: a load may fall to a part of itself at once.
-            opens |= *factor <= 0.0;
-            let shrinks = line.is_sideways() && self.opened < MOST_OPENED;
-            if !(factor.is_finite() && (*factor > 0.0 || shrinks)) {
+            if line.is_sideways() {
+                let eased = line.eased(*factor, load, self.opened);
+                opens |= *factor <= 0.0 && eased < 1.0;
+                *factor = eased;
+            }
+            if !(*factor > 0.0 && factor.is_finite()) {
                 return Err(ContactError::Unsuited { reason: "the patch opens" });
             }
             *factor = factor.clamp(1.0 / LARGEST_FACTOR, LARGEST_FACTOR);

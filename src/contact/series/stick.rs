@@ -68,7 +68,7 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
 }
 
 impl SeriesContact<'_> {
-    /// Improves the pressure under the present shear at `most` times, until its relative change is `close` enough \[1];
+    /// Improves the pressure under the present shear at most `most` times, until its relative change is `close` enough \[1];
     /// returns the last one.
     pub fn press_under_shear(&mut self, most: usize, close: f64) -> Result<f64, ContactError> {
         let mut change = self.press()?;
