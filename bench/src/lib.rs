@@ -10,6 +10,7 @@
 pub mod abi;
 pub mod bench;
 pub mod frame;
+pub mod link;
 pub mod patch_map;
 pub mod python;
 pub mod rail;

@@ -1,7 +1,7 @@
 //! Changes of a run, as they stand in links.
 
+use crate::link::{LinkError, condition, number};
 use crate::rail::Condition;
-use crate::settings::{LinkError, condition, number};
 use std::fmt;
 
 /// One change between two steps.

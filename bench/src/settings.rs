@@ -1,5 +1,6 @@
 //! A run as a text: how it starts and what is changed when. It is the part of the page's address behind `#`.
 
+use crate::link::{LinkError, MOST_CHANGES, condition, number};
 use crate::rail::Condition;
 use crate::script::Change;
 use std::fmt;
@@ -55,18 +56,8 @@ impl Patch {
 
 /// Rows of the patch of the preset `railway_s1002_0mm`, which names them as a file.
 const ROWS: &str = include_str!("../../resources/s1002_uic60_0mm.csv");
-/// Most changes of a run.
-const MOST_CHANGES: usize = 1000;
 /// Length of a step \[ms].
 pub const STEP_MS: f64 = 1.0;
-
-/// Inputs that are numbers: name in links, unit, smallest and largest value.
-pub const NUMBERS: [(&str, &str, f64, f64); 4] = [
-    ("speed", "km/h", 1.0, 250.0),
-    ("load", "kN", 20.0, 200.0),
-    ("torque", "kN m", 0.0, 60.0),
-    ("angle", "mrad", -20.0, 20.0),
-];
 
 /// Everything that decides about a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,61 +85,9 @@ impl Default for Settings {
     }
 }
 
-/// A link that is none of a run.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum LinkError {
-    /// A part that is no pair of a known name and a value.
-    #[error("the link says \"{part}\", which is none of patch=, rail=, speed=, load=, torque=, angle= and at=")]
-    Part {
-        /// The part.
-        part: String,
-    },
-    /// A value that its name does not have.
-    #[error("the link says {name} = \"{value}\"; possible: {possible}")]
-    Value {
-        /// Name of the input.
-        name: String,
-        /// The value.
-        value: String,
-        /// Possible values in words.
-        possible: String,
-    },
-    /// A change before the one that stands before it.
-    #[error("the link says at={late} before at={early}; changes stand in the order of their time")]
-    Order {
-        /// Time of the former \[ms].
-        late: u32,
-        /// Time of the latter \[ms].
-        early: u32,
-    },
-    /// Too many changes.
-    #[error("the link has more than {MOST_CHANGES} changes")]
-    Long,
-}
-
-impl LinkError {
-    /// Refusal of a value.
-    pub(crate) fn value(name: &str, value: &str, possible: impl Into<String>) -> Self {
-        Self::Value { name: name.to_owned(), value: value.to_owned(), possible: possible.into() }
-    }
-}
-
-/// A number of an input, within its range.
-pub(crate) fn number(name: &str, text: &str) -> Result<f64, LinkError> {
-    let range = NUMBERS.iter().find(|(known, ..)| *known == name);
-    let Some((_, unit, low, high)) = range else { return Err(LinkError::Part { part: format!("{name}={text}") }) };
-    let refused = || LinkError::value(name, text, format!("{low} to {high} {unit}"));
-    text.parse().ok().filter(|value: &f64| (*low..=*high).contains(value)).ok_or_else(refused)
-}
-
-/// Rail of a name.
-pub(crate) fn condition(name: &str) -> Result<Condition, LinkError> {
-    Condition::named(name).ok_or_else(|| LinkError::value("rail", name, Condition::ALL.map(Condition::name).join(", ")))
-}
-
 impl Settings {
     /// Reads a link: pairs `name=value` with `&` between them, changes as `at=1250:torque=6`, the time in milliseconds.
-    /// What is not named has its usual value.
+    /// Settings that are not named have their usual values.
     ///
     /// # Errors
     /// Unknown names, values that do not exist or are out of range, changes that are not in the order of time.

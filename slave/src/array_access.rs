@@ -1,7 +1,7 @@
 //! Access through variables that may be arrays, as FMI 3.0 has it.
 
+use crate::course::Course;
 use crate::instance::{Instance, Slave};
-use crate::intermediate::Course;
 use crate::life::Life;
 use crate::lifecycle::{Call, Phase};
 use crate::log::{CallError, Outcome};

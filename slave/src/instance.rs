@@ -1,7 +1,7 @@
 //! The trait of a model, and the instance that a master drives around it.
 
 use crate::aside::Aside;
-use crate::intermediate::Inquiry;
+use crate::course::Inquiry;
 use crate::life::Life;
 use crate::lifecycle::{Call, Phase};
 use crate::log::{CallError, Log, Outcome, Status};

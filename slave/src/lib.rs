@@ -12,7 +12,7 @@
 //! | [`aside`] | long computations on a thread of their own |
 //! | [`life`], [`instance`] | the state that all slaves share; the trait of a model and the instance around it |
 //! | [`array_access`] | access through arrays, as FMI 3.0 has it |
-//! | [`intermediate`] | values of inputs within a step, for which a master is asked |
+//! | [`course`], [`intermediate`] | courses of inputs within a step; how a master is asked for their values |
 //! | [`snapshot`] | saved states, their layout as text and their container of bytes |
 //! | [`uri`] | the path that a resource location means |
 //! | [`c_abi`] | the C functions of both versions, the only `unsafe` code |
@@ -25,6 +25,7 @@
 pub mod array_access;
 pub mod aside;
 pub mod c_abi;
+pub mod course;
 pub mod instance;
 pub mod intermediate;
 pub mod life;

@@ -1,4 +1,4 @@
-//! Triangle form of symmetric matrices: number of rows, and the columns from the top down to the diagonal.
+//! HalfStored form of symmetric matrices: number of rows, and the columns from the top down to the diagonal.
 
 use nalgebra::DMatrix;
 use serde::de::Error;
@@ -26,15 +26,15 @@ mod tests {
     use super::*;
 
     #[derive(Debug, PartialEq, Serialize, Deserialize)]
-    struct Triangle(#[serde(with = "super")] DMatrix<f64>);
+    struct HalfStored(#[serde(with = "super")] DMatrix<f64>);
 
     #[test]
     fn a_symmetric_matrix_comes_back_bit_by_bit_from_half_of_it() {
         for n in [0, 1, 2, 7] {
-            let matrix = Triangle(DMatrix::from_fn(n, n, |i, j| 1.0 / (1.0 + (i + j) as f64) - (i * j) as f64));
+            let matrix = HalfStored(DMatrix::from_fn(n, n, |i, j| 1.0 / (1.0 + (i + j) as f64) - (i * j) as f64));
             let bytes = postcard::to_stdvec(&matrix).unwrap();
             assert_eq!((bytes.len(), postcard::from_bytes(&bytes)), (2 + 4 * n * (n + 1), Ok(matrix)));
         }
-        assert!(postcard::from_bytes::<Triangle>(&postcard::to_stdvec(&(3_usize, vec![1.0; 5])).unwrap()).is_err());
+        assert!(postcard::from_bytes::<HalfStored>(&postcard::to_stdvec(&(3_usize, vec![1.0; 5])).unwrap()).is_err());
     }
 }

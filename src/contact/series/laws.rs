@@ -92,6 +92,7 @@ fn next(contact: &SeriesContact, problem: &ContactProblem, states: PerAxis<Brake
 
 /// Finds tractions along and across and motions, or motions without tractions where no line touches.
 fn sideways(contact: &mut SeriesContact) -> Result<(), ContactError> {
+    contact.opened = 0;
     let Err(error) = cone_search::solve(contact) else { return Ok(()) };
     if matches!(open::solve(contact), Ok(true)) {
         return Ok(());

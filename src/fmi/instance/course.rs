@@ -3,7 +3,7 @@
 use super::{WheelSlave, derivatives};
 use crate::config::Config;
 use crate::fmi::variable::{Access, Value, Variable};
-use wheelrail_slave::intermediate::Point;
+use wheelrail_slave::course::Point;
 use wheelrail_slave::{CallError, Life, Outcome, Slave, Status};
 
 impl WheelSlave {

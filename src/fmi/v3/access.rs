@@ -5,7 +5,7 @@ use crate::fmi::instance::WheelSlave;
 use crate::fmi::table::{find, no_such_variable};
 use crate::fmi::variable::{Causality, Kind, Variable};
 use wheelrail_slave::array_access::check_length;
-use wheelrail_slave::intermediate::Course;
+use wheelrail_slave::course::Course;
 use wheelrail_slave::lifecycle::Phase;
 use wheelrail_slave::{ArrayAccess, CallError, ElementType, Life, Outcome, Reference, Scalar};
 
