@@ -235,3 +235,35 @@ fn a_hot_wheel_grows_with_its_bulk_in_long_steps_and_bears_its_load() {
     assert!(warmer > 400.0 && (growth - 1.0).abs() < 0.01 && most < 1.02e5, "{growth} {most}");
     assert!(missing.abs() < 1e-5 * power * 2000.0, "{missing}");
 }
+
+/// Steel of 960 K gives way from edge to edge of the patch, so that a change of many nodes at once goes in circles: the
+/// search ends node by node.
+#[test]
+fn a_patch_that_yields_from_edge_to_edge_is_found_in_long_steps() {
+    let power = 65e3;
+    let run = |step: f64| {
+        let mut config = preset("railway", 10);
+        (config.initial.velocity, config.tuning.max_step) = (SPEED, 500.0);
+        let radius = config.wheel.radius;
+        let mut inputs = Inputs::rolling(&config);
+        (inputs.translation, inputs.rotation) = (Translation::Velocity, Rotation::Moment);
+        (inputs.drive.tread_heat, inputs.drive.moment) = (power, -power / (SPEED / radius));
+        let mut simulation = Simulation::new(model(config), &inputs).unwrap();
+        for _ in 0..(2100.0 / step) as usize {
+            simulation.advance(&inputs, step).unwrap();
+        }
+        let o = simulation.outputs();
+        println!(
+            "steps of {step} s: {} K, yielded {}, {} Pa",
+            o.temperature_wheel_bulk, o.yielded, o.contact_pressure_max
+        );
+        [o.temperature_wheel_bulk - 293.0, o.yielded, o.contact_pressure_max]
+    };
+    let reference = run(1.0);
+    assert!(reference[1] > 0.9);
+    for step in [10.0, 20.0] {
+        for (found, reference) in run(step).iter().zip(reference) {
+            assert!((found / reference - 1.0).abs() < 0.01, "{step}: {found} for {reference}");
+        }
+    }
+}

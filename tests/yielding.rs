@@ -154,14 +154,14 @@ fn an_overloaded_rolling_contact_bears_the_limit_and_keeps_no_dent() {
     }
 }
 
-/// Steel that yields at the start stores what springs back there, as it does in every step. The start is softer than
-/// the steps by hundredths of the pressure, and so is its energy.
+/// Steel that yields at the start gives way there as it does in every step, and stores what springs back.
 #[test]
 fn a_start_on_yielding_steel_has_its_energy_from_the_beginning() {
     for (name, load, step) in [
         ("railway_s1002_3mm", 1.9e5, 1e-3),
         ("railway_s1002_3mm", 1.9e5, 1e-4),
         ("railway_s1002_3mm", 3e5, 1e-3),
+        ("railway_s1002_3mm", 6e5, 1e-3),
         ("railway_ellipse", 3e5, 1e-3),
     ] {
         let mut config = preset(name, 10);
@@ -177,7 +177,7 @@ fn a_start_on_yielding_steel_has_its_energy_from_the_beginning() {
             "{name}, {load} N, {step} s: {:.3} yields, residual {:+.1e}",
             outputs.yielded, outputs.energy_residual
         );
-        assert!(outputs.yielded > 0.1 && outputs.energy_residual.abs() < 0.02, "{}", outputs.energy_residual);
+        assert!(outputs.yielded > 0.1 && outputs.energy_residual.abs() < 1e-4, "{}", outputs.energy_residual);
     }
 }
 

@@ -6,7 +6,7 @@
 //! ([`CoefficientSearch`]); each of its evaluations starts from the states found before.
 //!
 //! An iteration that stalls all the same is restarted as if all nodes had just closed ([`RESTARTS`]), and the tolerance
-//! within which a node keeps its state grows from iteration to iteration.
+//! within which a node keeps its state grows from iteration to iteration. In the end nodes change one by one ([`TOGETHER`]).
 
 use super::axes::Axes;
 use super::fast::LinearSolver;
@@ -23,7 +23,10 @@ use crate::contact::line::{ContactGrid, exchange, finish, zone};
 use crate::contact::problem::ContactProblem;
 
 /// Iterations allowed.
-pub const MAX_ITERATIONS: usize = 40;
+pub const MAX_ITERATIONS: usize = 240;
+/// Iterations after which only one node changes its state in each: where many nodes at once go in circles, as in a patch
+/// that yields from edge to edge, the last wrong one by itself leads to the solution (Murty 1974), mostly within ten.
+const TOGETHER: usize = 40;
 /// Iterations at which a stalled iteration restarts as if newly closed. Ordinary steps need one to three iterations and
 /// the start of sliding from stick up to fourteen, so that only stalled ones get there.
 const RESTARTS: [usize; 2] = [20, 31];
@@ -231,8 +234,10 @@ impl<'a> ActiveSet<'a> {
         let (mut changed, mut tolerance) = (false, 0.0);
         for (line, penalty) in lines.iter_mut().zip(penalties) {
             let rules = Rules::new(line, *penalty, problem.nominal_load, growth, founding);
-            changed |= states::update(line, &rules, &mut memory.before);
             tolerance = rules.force;
+            if iteration <= TOGETHER || !changed {
+                changed |= states::update(line, &rules, iteration > TOGETHER, &mut memory.before);
+            }
         }
         let braked = axes.update_brakes(lines, &mut memory.rows, tolerance * grid.len() as f64);
         // A static problem needs a support.

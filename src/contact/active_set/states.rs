@@ -51,30 +51,39 @@ pub(super) fn penalty(line: &ContactLine) -> f64 {
     line.grid.len() as f64 / (0..line.grid.len()).map(stiffness).sum::<f64>()
 }
 
-/// Takes new states of all nodes; returns whether any changed. `before` is memory for the states before.
-pub(super) fn update(line: &mut ContactLine, rules: &Rules, before: &mut Vec<NodeStatus>) -> bool {
+/// Takes new states of all nodes, or of the `last` one alone that is wrong; returns whether any changed. `before` is
+/// memory for the states before.
+pub(super) fn update(line: &mut ContactLine, rules: &Rules, last: bool, before: &mut Vec<NodeStatus>) -> bool {
     before.clone_from(&line.state.status);
-    let overloaded = is_overloaded(line);
+    let overloaded = !last && is_overloaded(line);
     let mut changed = false;
-    for i in 0..line.grid.len() {
-        let old = before[i];
-        let indicator = line.normal(i) - rules.penalty * line.state.gap[i];
-        let closed = if overloaded || indicator.abs() <= rules.force { old.is_active() } else { indicator > 0.0 };
-        let new = match (closed, old) {
-            (false, _) => NodeStatus::Open,
-            (true, NodeStatus::Open) if rules.founding => founding_state(line),
-            (true, NodeStatus::Open) => closing_state(line, i, before),
-            (true, NodeStatus::Stick) => stuck_state(line, i, rules.force),
-            (true, slipping @ (NodeStatus::SlipForward | NodeStatus::SlipBackward)) => {
-                slipping_state(line, i, slipping, rules.slip)
-            }
-        };
+    for i in (0..line.grid.len()).rev() {
+        let new = new_state(line, i, rules, overloaded, before);
         let yields = new.is_active() && yields(line, i, rules.force);
-        changed |= new != old || yields != line.state.yielded[i];
+        changed |= new != before[i] || yields != line.state.yielded[i];
         line.state.status[i] = new;
         line.state.yielded[i] = yields;
+        if last && changed {
+            break;
+        }
     }
     changed
+}
+
+/// New state of a node. Where stuck nodes are `overloaded`, closed nodes stay closed and open ones open.
+fn new_state(line: &ContactLine, i: usize, rules: &Rules, overloaded: bool, before: &[NodeStatus]) -> NodeStatus {
+    let old = before[i];
+    let indicator = line.normal(i) - rules.penalty * line.state.gap[i];
+    let closed = if overloaded || indicator.abs() <= rules.force { old.is_active() } else { indicator > 0.0 };
+    match (closed, old) {
+        (false, _) => NodeStatus::Open,
+        (true, NodeStatus::Open) if rules.founding => founding_state(line),
+        (true, NodeStatus::Open) => closing_state(line, i, before),
+        (true, NodeStatus::Stick) => stuck_state(line, i, rules.force),
+        (true, slipping @ (NodeStatus::SlipForward | NodeStatus::SlipBackward)) => {
+            slipping_state(line, i, slipping, rules.slip)
+        }
+    }
 }
 
 /// True if the steel at a node yields: it bears more than its limit.

@@ -64,11 +64,6 @@ impl LineScratch {
     }
 }
 
-/// Compliance of a yielding node over that of its surroundings in a stationary start \[1]: large, but so small that the
-/// search for the start does not leap from patch to patch. The first steps of the run give the steel time to yield in
-/// full.
-const SOFTER: f64 = 100.0;
-
 /// A line in the present iterate: `state`, and of `traction` port forces, surface displacements, rigid motions and
 /// friction coefficient.
 pub struct ContactLine<'a> {
@@ -142,12 +137,7 @@ impl<'a> ContactLine<'a> {
 
     /// Depth \[m] by which yielding candidate `i` gives way per force above its limit [m/(N/m)].
     pub fn creep(&self, i: usize) -> f64 {
-        let port = self.grid.port(i) + 1;
-        if self.problem.duration > 0.0 {
-            1.0 / (RESISTANCE * self.grid.width(i))
-        } else {
-            SOFTER * self.problem.compliance(port, port)
-        }
+        1.0 / (RESISTANCE * self.grid.width(i))
     }
 
     /// Velocity with which the rim passes the contact [m/s]: that of the hub less that of the rim against it.
