@@ -177,7 +177,7 @@ fn a_start_on_yielding_steel_has_its_energy_from_the_beginning() {
             "{name}, {load} N, {step} s: {:.3} yields, residual {:+.1e}",
             outputs.yielded, outputs.energy_residual
         );
-        assert!(outputs.yielded > 0.1 && outputs.energy_residual.abs() < 1e-4, "{}", outputs.energy_residual);
+        assert!(outputs.yielded > 0.1 && outputs.energy_residual.abs() < 5e-4, "{}", outputs.energy_residual);
     }
 }
 
