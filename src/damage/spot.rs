@@ -29,6 +29,8 @@ pub(super) struct Visit {
     pub reach: f64,
     /// Length of the step \[s].
     pub dt: f64,
+    /// Time for which a look at the temperatures of the contact holds \[s].
+    pub holds: f64,
     /// Coefficient of the heat lost from the surface [W/(m² K)].
     pub film: f64,
 }
@@ -105,8 +107,9 @@ impl Spot {
         self.field.as_deref()
     }
 
-    /// Step under the contact: in its zone the temperatures are those of the sample and the heat that the place brought
-    /// along; beyond, where the sample is coarse, the place conducts by itself.
+    /// Step under the contact, or its time put by until a new look is due: in the zone of the contact the temperatures are
+    /// those of the sample and the heat that the place brought along; beyond, where the sample is coarse, the place conducts
+    /// by itself. Returns `true` if its temperatures are new.
     pub(super) fn follow(
         &mut self,
         mesh: &SpotMesh,
@@ -114,9 +117,13 @@ impl Spot {
         sample: ColumnSampler,
         recorder: &Recorder,
         scratch: &mut ConductionScratch,
-    ) {
+    ) -> bool {
         let back = !std::mem::replace(&mut self.following, true);
-        let dt = visit.dt + std::mem::take(&mut self.pending);
+        self.pending += visit.dt;
+        if !back && self.pending < visit.holds {
+            return false;
+        }
+        let dt = std::mem::take(&mut self.pending);
         let (layers, all) = (mesh.depth.len(), 0..mesh.arc.len());
         // A place that was at rest is cold.
         let field = self.field.get_or_insert_with(|| Arc::new(SpotField::cold(mesh, recorder)));
@@ -150,6 +157,7 @@ impl Spot {
         *field = Arc::new(field.after(now, remainder, recorder, dt));
         self.alone = 0.0;
         self.judge(mesh, recorder);
+        true
     }
 
     /// Fills `column` with the temperatures at the distance `arc` \[m] from the middle, and returns `true`, within the
