@@ -10,6 +10,9 @@ use nalgebra::{DMatrix, DVector};
 /// Difference of a mode from its image that is round-off, relative to its largest value \[1].
 const ROUND_OFF: f64 = 1e-12;
 
+/// Signs of the components of a node in a mirror.
+const SIGNS: [f64; 2] = [-1.0, 1.0];
+
 /// Surface values of even and odd modes.
 pub struct MirroredModes {
     even: ModeHalf,
@@ -47,18 +50,13 @@ fn image(i: usize, n: usize) -> usize {
     n - 2 - i + 2 * (i % 2)
 }
 
-/// Sign of a component in a mirror.
-fn sign(i: usize) -> f64 {
-    if i.is_multiple_of(2) { -1.0 } else { 1.0 }
-}
-
 impl MirroredModes {
     /// The modes of the surface `shapes`, two components a node; `None` if one of them is neither even nor odd.
     pub fn new(shapes: &DMatrix<f64>) -> Option<Self> {
         let n = shapes.nrows();
         let apart = |k: usize, parity: f64| {
             let column = shapes.column(k);
-            let missed = (0..n).map(|i| (column[image(i, n)] - parity * sign(i) * column[i]).abs());
+            let missed = (0..n).map(|i| (column[image(i, n)] - parity * SIGNS[i % 2] * column[i]).abs());
             missed.fold(0.0, f64::max) <= ROUND_OFF * column.amax()
         };
         let of = |parity: f64| (0..shapes.ncols()).filter(move |&k| apart(k, parity)).collect::<Vec<_>>();
@@ -76,20 +74,21 @@ impl MirroredModes {
         let all = out.as_mut_slice();
         for j in 0..half {
             let (even, odd) = (&even.as_slice()[j * half..][..half], &odd.as_slice()[j * half..][..half]);
-            let column = &mut all[j * n..][..n];
-            // The nodes of the second half from the last one on, then those of the first, which count in the middle.
-            let far = column.rchunks_exact_mut(2).zip(even.chunks_exact(2).zip(odd.chunks_exact(2)));
-            far.for_each(|(out, (even, odd))| out.copy_from_slice(&[odd[0] - even[0], even[1] - odd[1]]));
-            column.iter_mut().zip(even.iter().zip(odd)).for_each(|(out, (even, odd))| *out = even + odd);
+            let (near, far) = all[j * n..][..n].split_at_mut(half);
+            near.iter_mut().zip(even.iter().zip(odd)).for_each(|(near, (even, odd))| *near = even + odd);
+            // The nodes of the second half from the last one on.
+            let pairs = even.as_chunks::<2>().0.iter().zip(odd.as_chunks::<2>().0);
+            let images = far.as_chunks_mut::<2>().0.iter_mut().rev();
+            images.zip(pairs).for_each(|(far, (even, odd))| *far = [odd[0] - even[0], even[1] - odd[1]]);
         }
         // The columns of the second half are images of those of the first.
         let (first, second) = all.split_at_mut(n * half);
-        let columns = second.rchunks_exact_mut(2 * n).zip(first.chunks_exact(2 * n));
-        for (images, columns) in columns {
-            for (c, (image, column)) in images.chunks_exact_mut(n).zip(columns.chunks_exact(n)).enumerate() {
-                let sign = sign(c);
-                let nodes = image.rchunks_exact_mut(2).zip(column.chunks_exact(2));
-                nodes.for_each(|(image, node)| image.copy_from_slice(&[-sign * node[0], sign * node[1]]));
+        for (images, columns) in second.rchunks_exact_mut(2 * n).zip(first.chunks_exact(2 * n)) {
+            for (sign, (image, column)) in
+                SIGNS.into_iter().zip(images.chunks_exact_mut(n).zip(columns.chunks_exact(n)))
+            {
+                let nodes = image.as_chunks_mut::<2>().0.iter_mut().rev().zip(column.as_chunks::<2>().0);
+                nodes.for_each(|(image, node)| *image = [SIGNS[0] * sign * node[0], SIGNS[1] * sign * node[1]]);
             }
         }
         out
@@ -127,7 +126,7 @@ mod tests {
             let value = |i: usize, k: usize| ((3 * i + 7 * k + i * k) as f64).sin();
             let mirrored = |i: usize, k: usize| {
                 let parity = if k.is_multiple_of(3) { 1.0 } else { -1.0 };
-                value(i, k) + parity * sign(i) * value(image(i, n), k)
+                value(i, k) + parity * SIGNS[i % 2] * value(image(i, n), k)
             };
             let shapes = DMatrix::from_fn(n, 5, mirrored);
             let weights = DVector::from_fn(5, |k, _| 1.0 + k as f64);

@@ -193,8 +193,7 @@ impl BodyResponse for ReducedBody {
         let basis = &self.basis;
         let Factorised { solver, flexibility: mut surface, answer } = self.factorised(a0)?;
         let share = self.layer.as_ref().map_or(1.0, |layer| layer.share(a0));
-        let residual = surface.as_mut_slice().iter_mut().zip(basis.residual.as_slice());
-        residual.for_each(|(surface, residual)| *surface += share * residual);
+        vectorised::add_columns(share, basis.residual.as_slice(), surface.len(), &[1.0], surface.as_mut_slice());
         let mut modal = DMatrix::zeros(basis.shapes.nrows(), Axis::COUNT);
         modal.gemm(1.0, &basis.shapes, &answer, 0.0);
         let square = a0 * a0;
