@@ -58,6 +58,8 @@ pub struct Demand<'a> {
     pub target: &'a Drive,
     /// Tunable parameters.
     pub tuning: &'a Tuning,
+    /// True if another internal step follows before a communication point.
+    pub interim: bool,
     /// Length of the step before \[s]; 0: the time formula starts afresh.
     pub last_step: f64,
 }
@@ -142,7 +144,7 @@ fn heat(
 ) -> Result<(), StepError> {
     let brake_power = (next.audit.brake - state.audit.brake) / dt;
     let supply = HeatSupply { drive: demand.target, brake_power, narrowing: model.narrowing(next) };
-    let step = HeatStep { dt, supply, criteria: thermal::criteria(demand.tuning) };
+    let step = HeatStep { dt, interim: demand.interim, supply, criteria: thermal::criteria(demand.tuning) };
     next.tread_point = demand.tuning.tread_point;
     let taken: Vec<_> = next.lines.iter_mut().map(|line| line.thermal.take().unwrap_or_default()).collect();
     if let Some(thermal) = &model.thermal {

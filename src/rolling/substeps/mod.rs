@@ -297,8 +297,9 @@ fn march(
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
         let dt = ramp.h / place.pieces as f64;
+        let interim = place.done + 1 < place.pieces;
         let [begin, target] = [place.done, place.done + 1].map(|done| ramp.at(done as f64 / place.pieces as f64));
-        let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, last_step };
+        let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, interim, last_step };
         let (verdict, found) =
             match judged(model, from, &demand, (dt, place.may_halve(tuning, tried + 1)), &mut control, workspace, next)
             {
