@@ -33,7 +33,7 @@ use crate::config::Tuning;
 use crate::heat::{HeatError, HeatFlows};
 use control::{Control, Verdict};
 use events::{condition, shortened};
-use prediction::{Found, controlled};
+use prediction::{Found, controlled, may_melt};
 
 /// Longest communication step \[s].
 pub const LONGEST_STEP: f64 = 3600.0;
@@ -264,9 +264,10 @@ fn judged(
     next: &mut State,
 ) -> Result<(Verdict, Found), StepError> {
     let (mut found, before) = (Found::default(), control.memory.before);
+    let melts = may_melt(model, from);
     let mut passes = |to: &State| {
         found = Found::in_motion(model, from, to, &before, demand.last_step, dt);
-        control.judge(&found, dt, may_halve) != Verdict::TooLong
+        melts || control.judge(&found, dt, may_halve) != Verdict::TooLong
     };
     if !step(model, from, demand, dt, &mut passes, workspace, next)? {
         return Ok((Verdict::TooLong, found));

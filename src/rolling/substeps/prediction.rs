@@ -32,6 +32,9 @@ use crate::rolling::state::{Controlled, State};
 /// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
 const WARM: f64 = 100.0;
 
+/// Distance to the temperature without friction from which on a step may melt the contact [K].
+const NEARLY_MOLTEN: f64 = 100.0;
+
 /// Forces of the deformation in the air that count as much as a contact force of the nominal load does, over this
 /// load \[1]: no contact force follows from their errors, but energy that the audit misses.
 const AIRBORNE: f64 = 8.0;
@@ -87,6 +90,8 @@ pub struct Found {
     pub first: bool,
     /// True if it was longer than the step before.
     pub doubled: bool,
+    /// True if its heat is known.
+    pub whole: bool,
     /// Its length over that of the step before, zero without one \[1].
     ratio: f64,
 }
@@ -138,7 +143,7 @@ impl Found {
 
     /// Adds what the heat of the same step tells.
     pub fn with_heat(self, model: &RollingModel, from: &State, to: &State, before: &Controlled) -> Self {
-        let Some(thermal) = &model.thermal else { return self };
+        let Some(thermal) = &model.thermal else { return Self { whole: true, ..self } };
         let mut warming = 0.0f64;
         // Nor is there a temperature of a patch without one.
         if from.touches() && to.touches() {
@@ -151,7 +156,7 @@ impl Found {
         let (rise, hottest) = (hottest(to) - hottest(from), thermal.reference() + hottest(to));
         let (heating, molten) = (rise.abs(), hottest > thermal.hottest() && rise > 0.0);
         let overheats = molten && hottest - rise <= thermal.hottest();
-        Self { warming, heating, hottest, overheats, molten, ..self }
+        Self { warming, heating, hottest, overheats, molten, whole: true, ..self }
     }
 
     /// Refuses a step that leaves the contact hotter than molten steel under friction can be.
@@ -159,6 +164,13 @@ impl Found {
         let highest = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
         if self.molten { Err(StepError::Overheated { temperature: self.hottest, highest }) } else { Ok(()) }
     }
+}
+
+/// True if a step from a state may melt the contact: it is then taken again with a molten film, so that its first motion
+/// tells nothing.
+pub fn may_melt(model: &RollingModel, from: &State) -> bool {
+    let hot = |limit: f64, reference: f64| reference + hottest(from) > limit - NEARLY_MOLTEN;
+    model.thermal.as_ref().is_some_and(|thermal| hot(thermal.frictionless(), thermal.reference()))
 }
 
 /// Highest rise of temperature in the contact [K].
