@@ -23,7 +23,7 @@ pub struct MirroredModes {
 
 /// Modes of one parity on the first half of the surface, the middle included.
 struct ModeHalf {
-    /// Their numbers among all modes.
+    /// Numbers among all modes.
     numbers: Vec<usize>,
     /// Components by modes, and transposed.
     shapes: DMatrix<f64>,

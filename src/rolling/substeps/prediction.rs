@@ -54,8 +54,8 @@ pub fn controlled(model: &RollingModel, state: &State) -> Controlled {
     }
 }
 
-/// How far a quantity was from the line through its values one step before and now, continued over a step of `ratio`
-/// times the length.
+/// Distance of a quantity from the line through its values one step before and now, continued over a step of `ratio` times
+/// the length.
 fn missed<C>([before, now, found]: [&C; 3], ratio: f64, of: &dyn Fn(&C) -> f64) -> f64 {
     of(found) - of(now) - ratio * (of(now) - of(before))
 }
@@ -92,7 +92,7 @@ pub struct Found {
     pub doubled: bool,
     /// True if its heat is known.
     pub whole: bool,
-    /// Its length over that of the step before, zero without one \[1].
+    /// Length over that of the step before, zero without one \[1].
     ratio: f64,
 }
 
