@@ -32,7 +32,8 @@ fn moment(dt: f64, angle: f64, omega: f64, hottest: f64) -> TreadStep<'static> {
     let hottest = [hottest, 0.0];
     let surface: (&[f64], &[f64]) = (&[], &[]);
     let (contact_length, contact_reach) = (0.0, 1.0);
-    TreadStep { dt, angle, omega, contact_length, contact_reach, hottest, bulk: 0.0, surface, criteria: CRITERIA }
+    let (interim, bulk, criteria) = (false, 0.0, CRITERIA);
+    TreadStep { dt, interim, angle, omega, contact_length, contact_reach, hottest, bulk, surface, criteria }
 }
 
 /// `erfc x` of a positive number: the series for small ones, the continued fraction for large ones.
@@ -134,6 +135,31 @@ fn a_released_half_space_cools_as_in_closed_form() {
         assert!((found.cooling_rate / rate - 1.0).abs() < 0.05, "{} and {rate} K/s", found.cooling_rate);
         assert!((found.ac1_depth / depth - 1.0).abs() < 0.05, "{} and {depth} m", found.ac1_depth);
     }
+}
+
+/// Between communication points a standing place is looked at less often; what is known at them is the same.
+#[test]
+fn internal_steps_change_nothing_at_communication_points() {
+    let spots = wheel(1.0);
+    let (depth, q, dt) = (&spots.mesh().depth, flux(1100.0, 0.2), 2e-4);
+    let [mut all, mut few] = [0, 1].map(|_| spots.begin([0.0; 2]));
+    for k in 1..=1000 {
+        let time = dt * f64::from(k);
+        let sample = |_: f64, column: &mut [f64]| {
+            column.iter_mut().zip(depth).for_each(|(t, z)| *t = half_space(q, 0.2, *z, time));
+        };
+        let now = moment(dt, 0.0, 0.0, half_space(q, 0.2, 0.0, time));
+        spots.advance(&mut all, &now, &sample, &mut Default::default());
+        let interim = TreadStep { interim: k % 5 != 0, ..now };
+        spots.advance(&mut few, &interim, &sample, &mut Default::default());
+        if k % 5 == 0 {
+            let [a, b] = [&all, &few].map(|damage| damage.findings());
+            assert!((a.peak, a.ac1_depth) == (b.peak, b.ac1_depth), "{time} s: {a:?} and {b:?}");
+        }
+    }
+    let [a, b] = [&all, &few].map(|damage| damage.findings().above_ac1);
+    println!("above Ac1 for {a} and {b} s");
+    assert!(a > 0.1 && (a - b).abs() < 0.2 * dt);
 }
 
 #[test]

@@ -9,6 +9,12 @@ const TRACTION: f64 = 3000.0;
 const LOCKING: f64 = 40_000.0;
 /// Period of a moment that varies \[s].
 const PERIOD: f64 = 0.04;
+/// Growth of a brake \[N m/s], and speed from which it locks a wheel after 1.1 s \[m/s].
+const GROWTH: f64 = 16_000.0;
+const SLOWER: &[(&str, &str)] = &[("initial.velocity", "16.7")];
+/// Amplitude \[m] and angular frequency \[rad/s] of an uneven track.
+const WAVE: f64 = 2.5e-3;
+const WAVING: f64 = 17.0;
 /// Angular velocity of free rolling \[rad/s], and the time in which a wheel is stopped \[s].
 const ROLLING: f64 = 27.0 / 0.46;
 const STOP: f64 = 0.02;
@@ -91,6 +97,15 @@ fn locking(time: f64) -> Vec<(&'static str, f64)> {
     vec![("brake.torque", if time < 0.15 { -MOMENT } else { LOCKING })]
 }
 
+fn growing(time: f64) -> Vec<(&'static str, f64)> {
+    vec![("brake.torque", GROWTH * time)]
+}
+
+/// A track without rates of its height.
+fn waving(time: f64) -> Vec<(&'static str, f64)> {
+    vec![("drive.moment", MOMENT), ("rail.elevation", WAVE * (1.0 - (WAVING * time).cos()))]
+}
+
 fn cycling(time: f64) -> Vec<(&'static str, f64)> {
     let locked = time.rem_euclid(CYCLE) < LOCKED;
     vec![("brake.torque", if locked { LOCKING } else { 0.0 }), ("drive.moment", if locked { 0.0 } else { TRACTION })]
@@ -137,6 +152,25 @@ const DRIVES: &[Drive] = &[
         ends_locked: true,
         ..BRAKING
     },
+    Drive {
+        name: "growing",
+        about: "brake that grows and locks the wheel after 1.1 s",
+        settings: SLOWER,
+        settling: 0.1,
+        measured: 2.5,
+        course: growing,
+        ends_locked: true,
+        ..BRAKING
+    },
+    Drive { name: "level", about: "constant moment, steps of 10 ms", step: 1e-2, measured: 4.0, ..BRAKING },
+    Drive {
+        name: "track",
+        about: "the same on an uneven track without rates",
+        step: 1e-2,
+        measured: 4.0,
+        course: waving,
+        ..BRAKING
+    },
     Drive { name: "rough", about: "rough rail (EN ISO 3095), steps of 0.1 ms", settings: ROUGH, step: 1e-4, ..BRAKING },
     Drive {
         name: "cycles",
@@ -156,6 +190,9 @@ const WITHOUT_HEAT: &[&str] = &[
     "fifty-cold",
     "locked-cold",
     "lock-up-cold",
+    "growing-cold",
+    "level-cold",
+    "track-cold",
     "rough-cold",
     "cycles-cold",
 ];

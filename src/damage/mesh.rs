@@ -47,6 +47,8 @@ pub struct SpotMesh {
     pub arc: Vec<f64>,
     /// Depth \[m], from the surface down.
     pub depth: Vec<f64>,
+    /// Part of the depth that belongs to each of these depths \[m].
+    pub(super) shares: Vec<f64>,
     /// Coefficients of conduction along the arc and over the depth.
     pub(super) along: ConductionLine,
     pub(super) across: ConductionLine,
@@ -85,11 +87,14 @@ impl SpotMesh {
         side.extend(outer.iter().skip(1).map(|s| middle + s));
         let arc: Vec<f64> = side.iter().rev().map(|s| -s).chain(side.iter().skip(1).copied()).collect();
         let weight = |z: f64| 1.0 - z / radius;
+        let at = |k: usize| depth[k.min(depth.len() - 1)];
+        let shares = (0..depth.len()).map(|k| 0.5 * (at(k + 1) - at(k.saturating_sub(1)))).collect();
         Self {
             along: ConductionLine::new(&arc, |_| 1.0),
             across: ConductionLine::new(&depth, weight),
             stretch: depth.iter().map(|&z| weight(z).powi(-2)).collect(),
             arc,
+            shares,
             depth,
             conductivity: layout.conductivity,
             heat_capacity: layout.heat_capacity,

@@ -37,6 +37,11 @@ pub const MOST_SPOTS: usize = 8;
 const HEATING_TIME: f64 = 10e-3;
 /// Distance of places below which one slide that crept on has heated both [half-widths of the nominal contact].
 const CONNECTED: f64 = 4.0;
+/// Longest time between two looks at the temperatures of a place below the contact, in internal steps \[s].
+const LOOK: f64 = 0.9e-3;
+/// Share of the half-width of the nominal contact by which a wheel turns that hardly does \[1]: a tenth of an element of
+/// a spot.
+const STILL: f64 = 0.01;
 /// Share of the excess temperature that opens a spot at which it is cold again [1].
 const COLD: f64 = 0.25;
 
@@ -80,6 +85,8 @@ pub struct Damage {
 pub struct TreadStep<'a> {
     /// Length of the step \[s].
     pub dt: f64,
+    /// True if nobody looks at the history before the next step.
+    pub interim: bool,
     /// Angle of the wheel at the end, forward positive \[rad].
     pub angle: f64,
     /// Angular velocity, forward positive [rad/s].
@@ -159,7 +166,7 @@ impl HotSpots {
     fn open(&self, damage: &mut Damage, now: &TreadStep, sample: ColumnSampler) {
         let (mesh, record) = (&self.mesh, self.recorder(now));
         let layers = mesh.depth.len();
-        let visit = Visit { distance: 0.0, reach: self.reach(now), dt: now.dt, film: 0.0 };
+        let visit = Visit { distance: 0.0, reach: self.reach(now), dt: now.dt, still: 0.0, holds: 0.0, film: 0.0 };
         let mut temperature = vec![0.0; mesh.size()];
         for (&arc, column) in mesh.arc.iter().zip(temperature.chunks_exact_mut(layers)) {
             let known = |spot: &Spot| arc - self.distance(spot, now);
@@ -196,9 +203,10 @@ impl HotSpots {
         let record = self.recorder(now);
         let film = self.convection + self.chill(now);
         let news = if under && (heats || spot.following) {
-            let visit = Visit { distance, reach: self.reach(now), dt: now.dt, film };
-            spot.follow(&self.mesh, &visit, sample, &record, scratch);
-            true
+            let still = STILL * self.half_width / (self.radius * now.omega.abs());
+            let holds = if now.interim { LOOK.min(still) } else { 0.0 };
+            let visit = Visit { distance, reach: self.reach(now), dt: now.dt, still, holds, film };
+            spot.follow(&self.mesh, &visit, sample, &record, scratch)
         } else {
             spot.conduct(&self.mesh, now.dt, film, &record, scratch)
         };

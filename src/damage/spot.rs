@@ -5,14 +5,17 @@ use super::mesh::SpotMesh;
 use super::record::{Findings, Recorder, Records};
 use super::shared;
 use super::worst::Worst;
+use crate::linalg::vectorised::dot;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;
 
 /// First step of its own after the contact has left a spot [s], and the share of the time since then that later ones
-/// take.
+/// take; beside a contact that stands still, of the time since the place became hot.
 const FIRST_STEP: f64 = 2e-5;
 const STEP_SHARE: f64 = 0.03;
+/// Time in which a wheel that stands still hardly turns \[s].
+const STANDS: f64 = 1e-2;
 /// Temperature below which the heat that a place brought along is forgotten [K].
 const NEGLIGIBLE: f64 = 1.0;
 
@@ -29,6 +32,10 @@ pub(super) struct Visit {
     pub reach: f64,
     /// Length of the step \[s].
     pub dt: f64,
+    /// Time in which the wheel hardly turns, infinite at rest \[s].
+    pub still: f64,
+    /// Time for which a look at the temperatures of the contact holds \[s].
+    pub holds: f64,
     /// Coefficient of the heat lost from the surface [W/(m² K)].
     pub film: f64,
 }
@@ -59,8 +66,9 @@ pub struct Spot {
     field: Option<Arc<SpotField>>,
     /// Time since the contact left it \[s].
     alone: f64,
-    /// Time that is still to be computed \[s].
+    /// Time that is still to be computed \[s], and that of the places beside the contact \[s].
     pending: f64,
+    beside: f64,
     /// Findings of earlier heatings.
     earlier: Findings,
     /// Findings of the latest heating.
@@ -105,8 +113,9 @@ impl Spot {
         self.field.as_deref()
     }
 
-    /// Step under the contact: in its zone the temperatures are those of the sample and the heat that the place brought
-    /// along; beyond, where the sample is coarse, the place conducts by itself.
+    /// Step under the contact, or its time put by until a new look is due: in the zone of the contact the temperatures are
+    /// those of the sample and the heat that the place brought along; beyond, where the sample is coarse, the place conducts
+    /// by itself. Returns `true` if its temperatures are new.
     pub(super) fn follow(
         &mut self,
         mesh: &SpotMesh,
@@ -114,9 +123,13 @@ impl Spot {
         sample: ColumnSampler,
         recorder: &Recorder,
         scratch: &mut ConductionScratch,
-    ) {
+    ) -> bool {
         let back = !std::mem::replace(&mut self.following, true);
-        let dt = visit.dt + std::mem::take(&mut self.pending);
+        self.pending += visit.dt;
+        if !back && self.pending < visit.holds {
+            return false;
+        }
+        let dt = std::mem::take(&mut self.pending);
         let (layers, all) = (mesh.depth.len(), 0..mesh.arc.len());
         // A place that was at rest is cold.
         let field = self.field.get_or_insert_with(|| Arc::new(SpotField::cold(mesh, recorder)));
@@ -126,8 +139,12 @@ impl Spot {
             conduct(mesh, &mut now, all, dt, visit.film, scratch);
             remainder.resize(mesh.size(), 0.0);
         } else {
-            for columns in beside(mesh, &covered, dt).into_iter().filter(|columns| !columns.is_empty()) {
-                conduct(mesh, &mut now, columns, dt, visit.film, scratch);
+            self.beside += dt;
+            if visit.still <= STANDS || self.beside >= mesh.resolution * STEP_SHARE * field.age {
+                let dt = std::mem::take(&mut self.beside);
+                for columns in beside(mesh, &covered, dt).into_iter().filter(|columns| !columns.is_empty()) {
+                    conduct(mesh, &mut now, columns, dt, visit.film, scratch);
+                }
             }
             if !field.remainder.is_empty() {
                 remainder.clone_from(&field.remainder);
@@ -150,6 +167,7 @@ impl Spot {
         *field = Arc::new(field.after(now, remainder, recorder, dt));
         self.alone = 0.0;
         self.judge(mesh, recorder);
+        true
     }
 
     /// Fills `column` with the temperatures at the distance `arc` \[m] from the middle, and returns `true`, within the
@@ -178,7 +196,7 @@ impl Spot {
         recorder: &Recorder,
         scratch: &mut ConductionScratch,
     ) -> bool {
-        self.following = false;
+        (self.following, self.beside) = (false, 0.0);
         let Some(field) = self.field.as_mut() else { return false };
         let own_step = |alone: f64| mesh.resolution * FIRST_STEP.max(STEP_SHARE * alone);
         self.pending += dt;
@@ -201,16 +219,14 @@ impl Spot {
     /// excess \[K].
     pub(super) fn raise(&self, mesh: &SpotMesh, reference: f64, worst: &mut Worst) {
         let Some(field) = self.field() else { return };
-        let layers = mesh.depth.len();
+        let (layers, thickness) = (mesh.depth.len(), mesh.shares.iter().sum::<f64>());
         let Worst { peaks, martensite, heat, hottest } = worst;
         peaks.resize(layers, 0.0);
         martensite.resize(layers, 0.0);
         for (arc, (column, histories)) in mesh.arc.iter().zip(field.records.columns(layers)) {
             peaks.iter_mut().zip(column).for_each(|(peak, place)| *peak = peak.max(*place));
             martensite.iter_mut().zip(histories).for_each(|(most, history)| *most = most.max(history.martensite));
-            let excess = |k: usize| column[k] - reference;
-            let within = |k: usize| 0.5 * (mesh.depth[k + 1] - mesh.depth[k]) * (excess(k) + excess(k + 1));
-            let found: f64 = (0..layers.saturating_sub(1)).map(within).sum();
+            let found = dot(column, &mesh.shares) - reference * thickness;
             if found > *heat {
                 (*heat, *hottest) = (found, self.arc + arc);
             }
@@ -221,7 +237,8 @@ impl Spot {
     pub(super) fn rest_below(&mut self, limit: f64) {
         let cold = |field: &SpotField| field.temperature.iter().all(|&excess| excess < limit);
         if self.field().is_some_and(cold) {
-            (self.field, self.following, self.alone, self.pending) = (None, false, 0.0, 0.0);
+            (self.field, self.following) = (None, false);
+            [self.alone, self.pending, self.beside] = [0.0; 3];
             self.earlier = self.findings();
             self.latest = Findings::default();
         }
@@ -237,7 +254,7 @@ impl Spot {
     pub(super) fn fits(&self, mesh: &SpotMesh) -> bool {
         let size = mesh.size();
         let fits = |field: &SpotField| {
-            let times = [field.age, self.alone, self.pending];
+            let times = [field.age, self.alone, self.pending, self.beside];
             field.temperature.len() == size
                 && field.records.fits(mesh)
                 && (field.remainder.is_empty() || field.remainder.len() == size)

@@ -167,8 +167,9 @@ vectorised! {
                     let sum = simd.mul_add_e_f64s(many[1], b[k], simd.mul_add_e_f64s(many[0], a[k], *out));
                     *out = simd.mul_add_e_f64s(many[3], d[k], simd.mul_add_e_f64s(many[2], c[k], sum));
                 }
+                let [a, b, c, d] = [parts[0].1, parts[1].1, parts[2].1, parts[3].1];
                 for (k, out) in out_rest.iter_mut().enumerate() {
-                    *out += weights.iter().zip(parts).map(|(weight, (_, rest))| weight * rest[k]).sum::<f64>();
+                    *out += weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k] + weights[3] * d[k];
                 }
             } else {
                 for (column, x) in columns.chunks(apart).zip(x) {

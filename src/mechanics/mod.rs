@@ -10,6 +10,7 @@ pub mod field;
 pub mod full;
 mod layout;
 mod meshes;
+mod mirrored;
 mod motion;
 mod pair;
 mod rectangle;

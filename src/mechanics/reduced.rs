@@ -13,6 +13,7 @@
 
 use super::MechanicsError;
 use super::damping::BodyDamping;
+use super::mirrored::{MirroredModes, symmetric_product};
 use super::motion::{self, Equations, column};
 use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
@@ -28,8 +29,8 @@ use std::sync::Arc;
 pub struct ReducedBody {
     /// Modes and what else is constant.
     basis: ReducedBasis,
-    /// Modes on the surface, transposed.
-    transposed: DMatrix<f64>,
+    /// Modes that are even or odd; `None`: they are neither.
+    mirrored: Option<MirroredModes>,
     /// Centrifugal load of the spinning wheel.
     centrifugal: bool,
     /// Damping of each mode; `None`: by dashpots at most.
@@ -72,8 +73,8 @@ const TOGETHER: usize = 16;
 /// Solutions with the matrix `A = a0² + a0 D + diag(Ω²)` of a step.
 struct Factorised {
     solver: Box<dyn StepSolver>,
-    /// `Φ_s A⁻¹`.
-    weighted: DMatrix<f64>,
+    /// `Φ_s A⁻¹ Φ_sᵀ`.
+    flexibility: DMatrix<f64>,
     /// `A⁻¹ Φᵀ M r_k`.
     answer: DMatrix<f64>,
 }
@@ -88,7 +89,7 @@ impl ReducedBody {
         });
         let layer = (damping.stiffness > 0.0)
             .then(|| Arc::new(RetardedLayer { flexibility: basis.residual.clone(), time: damping.stiffness }));
-        Self { transposed: basis.shapes.transpose(), basis, centrifugal, modal, layer }
+        Self { mirrored: MirroredModes::new(&basis.shapes), basis, centrifugal, modal, layer }
     }
 
     /// Convection of the truncated modes into the rates of the kept ones, per force, and the forces that deform them;
@@ -107,15 +108,20 @@ impl ReducedBody {
         }
         let Some(damping) = damping else {
             let inverse = diagonal.map(|value| 1.0 / value);
-            let weighted = scale_columns(shapes, &inverse);
+            let flexibility = match &self.mirrored {
+                Some(modes) => modes.flexibility(&inverse),
+                None => symmetric_product(&scale_columns(shapes, &inverse), &shapes.transpose()),
+            };
             let answer = DMatrix::from_fn(self.basis.modes(), Axis::COUNT, |i, k| inverse[i] * rigid[(i, k)]);
-            return Ok(Factorised { solver: Box::new(Diagonal { inverse }), weighted, answer });
+            return Ok(Factorised { solver: Box::new(Diagonal { inverse }), flexibility, answer });
         };
         let mut matrix = damping * a0;
         matrix.set_diagonal(&(matrix.diagonal() + diagonal));
         let solver = Dense::new(matrix)?;
-        let (weighted, answer) = (solver.solve(&shapes.transpose()).transpose(), solver.solve(rigid));
-        Ok(Factorised { solver: Box::new(solver), weighted, answer })
+        let transposed = shapes.transpose();
+        let flexibility = symmetric_product(&solver.solve(&transposed).transpose(), &transposed);
+        let answer = solver.solve(rigid);
+        Ok(Factorised { solver: Box::new(solver), flexibility, answer })
     }
 }
 
@@ -185,13 +191,11 @@ impl BodyResponse for ReducedBody {
 
     fn operator(&self, a0: f64) -> Result<StepOperator, MechanicsError> {
         let basis = &self.basis;
-        let Factorised { solver, weighted, answer } = self.factorised(a0)?;
-        let mut surface = match &self.layer {
-            Some(layer) => &layer.flexibility * layer.share(a0),
-            None => basis.residual.clone(),
-        };
-        add_symmetric_product(&weighted, &self.transposed, &mut surface);
-        let modal = &weighted * &basis.rigid;
+        let Factorised { solver, flexibility: mut surface, answer } = self.factorised(a0)?;
+        let share = self.layer.as_ref().map_or(1.0, |layer| layer.share(a0));
+        vectorised::add_columns(share, basis.residual.as_slice(), surface.len(), &[1.0], surface.as_mut_slice());
+        let mut modal = DMatrix::zeros(basis.shapes.nrows(), Axis::COUNT);
+        modal.gemm(1.0, &basis.shapes, &answer, 0.0);
         let square = a0 * a0;
         let momentum = modal.transpose() * square;
         let inertial_response = -(modal + &basis.rigid_residual);
@@ -250,24 +254,6 @@ impl BodyResponse for ReducedBody {
     }
 }
 
-/// `out ← out + A B` for a symmetric product: the lower half is computed in blocks of columns and mirrored.
-fn add_symmetric_product(a: &DMatrix<f64>, b: &DMatrix<f64>, out: &mut DMatrix<f64>) {
-    let n = out.nrows();
-    for first in (0..n).step_by(COLUMNS) {
-        let width = COLUMNS.min(n - first);
-        let mut part = out.view_mut((first, first), (n - first, width));
-        part.gemm(1.0, &a.rows(first, n - first), &b.columns(first, width), 1.0);
-    }
-    let all = out.as_mut_slice();
-    for j in 0..n {
-        let (above, own) = all.split_at_mut(j * n);
-        above.chunks_exact(n).zip(own).for_each(|(column, entry)| *entry = column[j]);
-    }
-}
-
-/// Columns of a symmetric product that are computed together.
-const COLUMNS: usize = 32;
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -302,6 +288,7 @@ mod tests {
     fn reduced_body_is_exact_in_statics() {
         for (reduced, full) in pairs(12) {
             let (r, f) = (reduced.operator(0.0).unwrap(), full.operator(0.0).unwrap());
+            assert!(reduced.mirrored.is_some(), "modes are even or odd");
             assert!(difference(&r.surface, &f.surface) < 1e-9);
             assert!(difference(&r.inertial_response, &f.inertial_response) < 1e-9);
             assert!(r.momentum.amax() == 0.0 && r.deformation_inertia.amax() == 0.0);

@@ -58,22 +58,28 @@ pub struct Demand<'a> {
     pub target: &'a Drive,
     /// Tunable parameters.
     pub tuning: &'a Tuning,
+    /// True if another internal step follows before a communication point.
+    pub interim: bool,
     /// Length of the step before \[s]; 0: the time formula starts afresh.
     pub last_step: f64,
 }
 
-/// Computes the state `next` one internal step of `dt` seconds after `state`; on error `next` is meaningless. The
-/// control of the step size and the counts of the communication step are left to [`super::substeps`].
+/// Computes the state `next` one internal step of `dt` seconds after `state`, and tells whether it counts: not if the
+/// judge refuses its motion, before its heat is computed. Then, and on error, `next` is meaningless. The control of the
+/// step size and the counts of the communication step are left to [`super::substeps`].
 pub fn step(
     model: &RollingModel,
     state: &State,
     demand: &Demand,
     dt: f64,
+    judge: &mut dyn FnMut(&State) -> bool,
     workspace: &mut Workspace,
     next: &mut State,
-) -> Result<(), StepError> {
+) -> Result<bool, StepError> {
     let plan = Plan::new(model, state, demand, dt);
-    attempt(model, state, demand, &plan, workspace, next)?;
+    if !attempt(model, state, demand, &plan, judge, workspace, next)? {
+        return Ok(false);
+    }
     let mut again: Option<State> = None;
     for _ in 0..COOLER {
         if plan.dt > LONGEST_AGAIN * (1.0 + 1e-9) || !overheats(model, state, next) {
@@ -85,9 +91,11 @@ pub fn step(
                 thermal.weakening.film.clone_from(&found.weakening.film);
             }
         }
-        attempt(model, again, demand, &plan, workspace, next)?;
+        if !attempt(model, again, demand, &plan, judge, workspace, next)? {
+            return Ok(false);
+        }
     }
-    Ok(())
+    Ok(true)
 }
 
 /// True if friction has heated the contact beyond what a molten film lets it: within a step the film is that of its
@@ -98,15 +106,16 @@ fn overheats(model: &RollingModel, state: &State, next: &State) -> bool {
     after > before && after > model.frictionless() && before <= model.hottest()
 }
 
-/// Takes the step with the film of `state`.
+/// Takes the step with the film of `state`, its heat only if the judge lets its motion pass; tells whether it does.
 fn attempt(
     model: &RollingModel,
     state: &State,
     demand: &Demand,
     plan: &Plan,
+    judge: &mut dyn FnMut(&State) -> bool,
     workspace: &mut Workspace,
     next: &mut State,
-) -> Result<(), StepError> {
+) -> Result<bool, StepError> {
     nodes::try_in_turn(model, state, |state| solve_and_commit(model, state, demand, plan, workspace, next))?;
     // The energy is that of the solution found: the state on other nodes has none of its own yet.
     next.audit = audit::advance(model, &plan.td, state, next);
@@ -117,7 +126,11 @@ fn attempt(
         return Err(StepError::NotFinite { time: state.clock.time, step: plan.dt });
     }
     model.wheel.check_state(next)?;
-    heat(model, state, demand, plan.dt, &mut workspace.heat, next)
+    if !judge(next) {
+        return Ok(false);
+    }
+    heat(model, state, demand, plan.dt, &mut workspace.heat, next)?;
+    Ok(true)
 }
 
 /// The heat step of all lines.
@@ -131,7 +144,7 @@ fn heat(
 ) -> Result<(), StepError> {
     let brake_power = (next.audit.brake - state.audit.brake) / dt;
     let supply = HeatSupply { drive: demand.target, brake_power, narrowing: model.narrowing(next) };
-    let step = HeatStep { dt, supply, criteria: thermal::criteria(demand.tuning) };
+    let step = HeatStep { dt, interim: demand.interim, supply, criteria: thermal::criteria(demand.tuning) };
     next.tread_point = demand.tuning.tread_point;
     let taken: Vec<_> = next.lines.iter_mut().map(|line| line.thermal.take().unwrap_or_default()).collect();
     if let Some(thermal) = &model.thermal {

@@ -70,12 +70,14 @@ pub struct Control<'a> {
     pub memory: StepControl,
     /// Error of the last attempt from the present state, which failed; zero if there was none.
     failed: f64,
+    /// True if it failed before its heat was known.
+    failed_in_motion: bool,
 }
 
 impl<'a> Control<'a> {
     /// Goes on where the last communication step ended.
     pub fn new(tuning: &'a Tuning, memory: StepControl) -> Self {
-        Self { tuning, memory, failed: 0.0 }
+        Self { tuning, memory, failed: 0.0, failed_in_motion: false }
     }
 
     /// True if the errors so far allow a step of `dt` seconds.
@@ -88,8 +90,10 @@ impl<'a> Control<'a> {
     pub fn judge(&mut self, found: &Found, dt: f64, may_halve: bool) -> Verdict {
         let tolerance = self.tuning.tolerance;
         let error = error(found, dt);
-        if !found.first && self.failed > 0.0 && error > SMALLER * self.failed {
-            self.learn(error);
+        // Like is compared with like.
+        let comparable = if self.failed_in_motion { found.error } else { error };
+        if !found.first && self.failed > 0.0 && comparable > SMALLER * self.failed {
+            self.learn(comparable);
         }
         let limit = tolerance.max((ALLOWANCE * self.memory.noise).min(NOISIEST * tolerance));
         let finest = if found.strikes { STRIKE } else { FINEST };
@@ -104,7 +108,7 @@ impl<'a> Control<'a> {
             (true, _, _) | (false, true, true) => {}
         }
         self.memory.step = 0.5 * dt;
-        self.failed = error;
+        (self.failed, self.failed_in_motion) = (error, !found.whole);
         let doubled = inaccurate && found.doubled;
         (self.memory.suspect, self.memory.quiet) = if doubled { (error, 0) } else { (0.0, 0) };
         Verdict::TooLong

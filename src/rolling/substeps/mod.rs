@@ -33,7 +33,7 @@ use crate::config::Tuning;
 use crate::heat::{HeatError, HeatFlows};
 use control::{Control, Verdict};
 use events::{condition, shortened};
-use prediction::{Found, controlled};
+use prediction::{Found, controlled, may_melt};
 
 /// Longest communication step \[s].
 pub const LONGEST_STEP: f64 = 3600.0;
@@ -252,6 +252,30 @@ fn shorter_may_succeed(error: &StepError) -> bool {
     )
 }
 
+/// Computes the state `next` after an internal step of `dt` seconds, unless its motion alone shows that it is too long, and
+/// judges it.
+fn judged(
+    model: &RollingModel,
+    from: &State,
+    demand: &Demand,
+    (dt, may_halve): (f64, bool),
+    control: &mut Control,
+    workspace: &mut Workspace,
+    next: &mut State,
+) -> Result<(Verdict, Found), StepError> {
+    let (mut found, before) = (Found::default(), control.memory.before);
+    let melts = may_melt(model, from);
+    let mut passes = |to: &State| {
+        found = Found::in_motion(model, from, to, &before, demand.last_step, dt);
+        melts || control.judge(&found, dt, may_halve) != Verdict::TooLong
+    };
+    if !step(model, from, demand, dt, &mut passes, workspace, next)? {
+        return Ok((Verdict::TooLong, found));
+    }
+    let found = found.with_heat(model, from, next, &before);
+    Ok((control.judge(&found, dt, may_halve), found))
+}
+
 /// Takes the internal steps and returns the share of the communication step that they make: all of it, unless a condition ends
 /// it early. `now` is the state after the last one, `next` a buffer.
 fn march(
@@ -274,28 +298,26 @@ fn march(
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
         let dt = ramp.h / place.pieces as f64;
+        let interim = place.done + 1 < place.pieces;
         let [begin, target] = [place.done, place.done + 1].map(|done| ramp.at(done as f64 / place.pieces as f64));
-        let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, last_step };
-        match step(model, from, &demand, dt, workspace, next) {
-            Ok(()) => {}
-            Err(error) if failures < MAX_HALVINGS && dt >= 2.0 * SHORTEST_STEP && shorter_may_succeed(&error) => {
-                failures += 1;
-                last_step = 0.0;
-                place.halve();
-                continue;
-            }
-            Err(error) => return Err(error),
-        }
-        let found = Found::compare(model, from, next, &control.memory.before, last_step, dt);
+        let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, interim, last_step };
+        let (verdict, found) =
+            match judged(model, from, &demand, (dt, place.may_halve(tuning, tried + 1)), &mut control, workspace, next)
+            {
+                Ok(judged) => judged,
+                Err(error) if failures < MAX_HALVINGS && dt >= 2.0 * SHORTEST_STEP && shorter_may_succeed(&error) => {
+                    failures += 1;
+                    last_step = 0.0;
+                    place.halve();
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
         tried += 1;
-        let limited = match control.judge(&found, dt, place.may_halve(tuning, tried)) {
-            Verdict::TooLong => {
-                place.halve();
-                continue;
-            }
-            Verdict::Limited => true,
-            Verdict::Accepted => false,
-        };
+        if verdict == Verdict::TooLong {
+            place.halve();
+            continue;
+        }
         found.check(model)?;
         control.memory.before = controlled(model, from);
         (place.done, failures) = (place.done + 1, 0);
@@ -305,7 +327,7 @@ fn march(
         if control.grows(&found, dt) {
             place.join(fewest);
         }
-        sums.add(next, limited, dt, ramp.h);
+        sums.add(next, verdict == Verdict::Limited, dt, ramp.h);
         (last_step, begun) = (next.clock.last_step, true);
         std::mem::swap(now, next);
     }

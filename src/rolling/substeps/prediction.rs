@@ -32,6 +32,9 @@ use crate::rolling::state::{Controlled, State};
 /// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
 const WARM: f64 = 100.0;
 
+/// Distance to the temperature without friction from which on a step may melt the contact [K].
+const NEARLY_MOLTEN: f64 = 100.0;
+
 /// Forces of the deformation in the air that count as much as a contact force of the nominal load does, over this
 /// load \[1]: no contact force follows from their errors, but energy that the audit misses.
 const AIRBORNE: f64 = 8.0;
@@ -44,16 +47,28 @@ pub fn controlled(model: &RollingModel, state: &State) -> Controlled {
         resisting: PerAxis::from_fn(|axis| model.wheel.inertia[axis] * accelerations[axis] - state.hub.driving[axis]),
         damper: model.wheel.damper_force(state),
         slip: state.tread_slip(),
-        temperatures: [0, 1].map(|body| {
-            state.mean_under_load(|line| line.thermal.as_ref().map_or(0.0, |thermal| thermal.loaded_mean[body]))
-        }),
+        temperatures: temperatures(state),
         velocity: state.motion.velocity.now,
         omega: state.motion.omega.now,
         lateral: state.motion.lateral.now,
     }
 }
 
+/// Distance of a quantity from the line through its values one step before and now, continued over a step of `ratio` times
+/// the length.
+fn missed<C>([before, now, found]: [&C; 3], ratio: f64, of: &dyn Fn(&C) -> f64) -> f64 {
+    of(found) - of(now) - ratio * (of(now) - of(before))
+}
+
+/// Mean temperature rises of wheel and rail in the patch \[K].
+fn temperatures(state: &State) -> [f64; 2] {
+    [0, 1].map(|body| {
+        state.mean_under_load(|line| line.thermal.as_ref().map_or(0.0, |thermal| thermal.loaded_mean[body]))
+    })
+}
+
 /// How far an internal step was from its prediction.
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Found {
     /// Largest deviation of the predicted forces and slip, relative to their scales \[1].
     pub error: f64,
@@ -75,12 +90,16 @@ pub struct Found {
     pub first: bool,
     /// True if it was longer than the step before.
     pub doubled: bool,
+    /// True if its heat is known.
+    pub whole: bool,
+    /// Length over that of the step before, zero without one \[1].
+    ratio: f64,
 }
 
 impl Found {
-    /// Judges the step of `dt` \[s] that led `from` one state `to` the next; the step before took `last_step` \[s].
-    /// `before` are the quantities at its beginning.
-    pub fn compare(
+    /// Judges the motion of the step of `dt` \[s] that led `from` one state `to` the next; the step before took `last_step`
+    /// \[s]. `before` are the quantities at its beginning. Nothing is known of its heat.
+    pub fn in_motion(
         model: &RollingModel,
         from: &State,
         to: &State,
@@ -91,18 +110,18 @@ impl Found {
         let (now, found) = (controlled(model, from), controlled(model, to));
         let first = to.clock.restarted || last_step == 0.0;
         let ratio = if first { 0.0 } else { dt / last_step };
-        let missed = |of: &dyn Fn(&Controlled) -> f64| of(&found) - of(&now) - ratio * (of(&now) - of(before));
+        let missed = |of: &dyn Fn(&Controlled) -> f64| missed([before, &now, &found], ratio, of);
         let (load, radius) = (model.contact.nominal_line_load(), model.wheel.radius);
         let flies = !from.touches() && !to.touches();
         let force = |axis: Axis| match flies && !to.hub.prescribed[axis] {
             true => missed(&|c| c.resisting[axis]).abs() / (AIRBORNE * load * axis.arm(radius)),
             false => missed(&|c| c.forces[axis]).abs() / (load * axis.arm(radius)),
         };
-        let (mut error, mut warming) = (Axis::ALL.into_iter().map(force).fold(0.0, f64::max), 0.0f64);
+        let mut error = Axis::ALL.into_iter().map(force).fold(0.0, f64::max);
         if flies {
             error = error.max(missed(&|c| c.damper).abs() / load);
         }
-        // What slip and temperature of the patch are without a patch is a convention.
+        // What the slip of the patch is without a patch is a convention.
         if from.touches() && to.touches() {
             let known = to.hub.prescribed.map(|prescribed| if prescribed { 1.0 } else { 0.0 });
             let explained = [
@@ -116,19 +135,28 @@ impl Found {
             for (k, explained) in explained.into_iter().enumerate() {
                 error = error.max((missed(&|c| c.slip[k]).abs() - explained.abs()) / scale);
             }
-            for body in 0..2 {
-                let rise = |c: &Controlled| c.temperatures[body];
-                warming = warming.max(missed(&rise).abs() / WARM.max(rise(&found).abs()));
-            }
         }
-        let reference = model.thermal.as_ref().map_or(0.0, |thermal| thermal.reference());
-        let (rise, hottest) = (hottest(to) - hottest(from), reference + hottest(to));
-        let bound = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
-        let (heating, molten) = (rise.abs(), hottest > bound && rise > 0.0);
-        let overheats = molten && hottest - rise <= bound;
         let yields = to.lines.iter().any(|line| line.contact.traction.yielding.share > 0.0);
         let strikes = from.touches() != to.touches();
-        Self { error, warming, heating, hottest, overheats, molten, yields, strikes, first, doubled: ratio > 1.5 }
+        Self { error, yields, strikes, first, doubled: ratio > 1.5, ratio, ..Self::default() }
+    }
+
+    /// Adds what the heat of the same step tells.
+    pub fn with_heat(self, model: &RollingModel, from: &State, to: &State, before: &Controlled) -> Self {
+        let Some(thermal) = &model.thermal else { return Self { whole: true, ..self } };
+        let mut warming = 0.0f64;
+        // Nor is there a temperature of a patch without one.
+        if from.touches() && to.touches() {
+            let (now, found) = (temperatures(from), temperatures(to));
+            for body in 0..2 {
+                let missed = missed([&before.temperatures, &now, &found], self.ratio, &|rises| rises[body]);
+                warming = warming.max(missed.abs() / WARM.max(found[body].abs()));
+            }
+        }
+        let (rise, hottest) = (hottest(to) - hottest(from), thermal.reference() + hottest(to));
+        let (heating, molten) = (rise.abs(), hottest > thermal.hottest() && rise > 0.0);
+        let overheats = molten && hottest - rise <= thermal.hottest();
+        Self { warming, heating, hottest, overheats, molten, whole: true, ..self }
     }
 
     /// Refuses a step that leaves the contact hotter than molten steel under friction can be.
@@ -136,6 +164,13 @@ impl Found {
         let highest = model.thermal.as_ref().map_or(f64::INFINITY, |thermal| thermal.hottest());
         if self.molten { Err(StepError::Overheated { temperature: self.hottest, highest }) } else { Ok(()) }
     }
+}
+
+/// True if a step from a state may melt the contact: it is then taken again with a molten film, so that its first motion
+/// tells nothing.
+pub fn may_melt(model: &RollingModel, from: &State) -> bool {
+    let hot = |limit: f64, reference: f64| reference + hottest(from) > limit - NEARLY_MOLTEN;
+    model.thermal.as_ref().is_some_and(|thermal| hot(thermal.frictionless(), thermal.reference()))
 }
 
 /// Highest rise of temperature in the contact [K].

@@ -1,6 +1,7 @@
 //! The history of the wheel's material beside the temperatures of the contact.
 
 use super::exchange::ThermalContact;
+use super::sources::HeatStep;
 use crate::config::{Config, Tuning};
 use crate::damage::{ConductionScratch, Criteria, Damage, HotSpots, SpotLayout, TreadStep};
 use crate::heat::{HeatModel, HeatState, Observation};
@@ -21,8 +22,8 @@ pub struct MaterialHistory {
 
 /// End of a step as the heat model found it.
 pub struct ObservedStep<'a> {
-    /// Length of the step \[s].
-    pub dt: f64,
+    /// The step.
+    pub step: HeatStep<'a>,
     /// The heat model with its state.
     pub field: (&'a dyn HeatModel, &'a HeatState),
     /// Observation of that state.
@@ -63,7 +64,6 @@ impl MaterialHistory {
         &self,
         damage: &mut Damage,
         motion: &Motion,
-        criteria: Criteria,
         contact: &ThermalContact,
         seen: &ObservedStep,
         scratch: &mut ConductionScratch,
@@ -71,7 +71,8 @@ impl MaterialHistory {
         let temperatures = &seen.observation.temperatures;
         let patch = contact.traction.extent();
         let moment = TreadStep {
-            dt: seen.dt,
+            dt: seen.step.dt,
+            interim: seen.step.interim,
             angle: motion.angle,
             omega: motion.omega.now,
             contact_length: patch.map_or(0.0, |patch| patch.high - patch.low),
@@ -79,7 +80,7 @@ impl MaterialHistory {
             hottest: [temperatures.wheel_max, temperatures.rail_max],
             bulk: temperatures.wheel_mean,
             surface: (seen.zone, &seen.observation.surface[0]),
-            criteria,
+            criteria: seen.step.criteria,
         };
         let (heat, state) = seen.field;
         let column = |s: f64, out: &mut [f64]| heat.column(0, state, s, &self.weights, out);

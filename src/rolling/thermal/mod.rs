@@ -21,7 +21,7 @@ use super::state::Motion;
 use super::thermal_state::{ThermalDeformation, ThermalState, Weakening};
 use crate::config::Config;
 use crate::contact::{ContactState, Heating};
-use crate::damage::{ConductionScratch, Criteria};
+use crate::damage::ConductionScratch;
 use crate::heat::{
     Exchange, Heat, HeatConfig, HeatError, HeatLine, HeatModel, HeatScratch, Observation, TemperatureField,
 };
@@ -34,7 +34,7 @@ pub use history::criteria;
 use history::{MaterialHistory, ObservedStep};
 use smoothing::Smoothing;
 use sources::HeatSources;
-pub use sources::HeatSupply;
+pub use sources::{HeatStep, HeatSupply};
 use thermoelastic::Thermoelastic;
 use warming::Warming;
 use weakening::WeakSteel;
@@ -75,17 +75,6 @@ pub struct ThermalModel {
     /// Positions at which the surface temperatures are reported [m].
     points: Vec<f64>,
     history: MaterialHistory,
-}
-
-/// A heat step beside the mechanical one.
-#[derive(Clone, Copy, Debug)]
-pub struct HeatStep<'a> {
-    /// Length of the step \[s].
-    pub dt: f64,
-    /// Givers of heat beside friction.
-    pub supply: HeatSupply<'a>,
-    /// Limits that decide about the structure of the steel.
-    pub criteria: Criteria,
 }
 
 /// Memory that heat steps reuse.
@@ -259,7 +248,7 @@ impl ThermalModel {
         step: HeatStep,
         scratch: &mut ThermalScratch,
     ) -> Result<(), StepError> {
-        let HeatStep { dt, criteria, .. } = step;
+        let dt = step.dt;
         let ThermalScratch { view, history, .. } = scratch;
         let ThermalLine { before, contact, thermal } = line;
         thermal.weakening.film.clone_from(&before.weakening.film);
@@ -268,12 +257,12 @@ impl ThermalModel {
         thermal.melted = thermal.temperatures.melted.iter().copied().fold(before.melted, f64::max);
         thermal.damage.copy_from(&before.damage);
         let seen = ObservedStep {
-            dt,
+            step,
             field: (&*self.heat, &thermal.fields),
             observation: &view.seen,
             zone: self.heat.zone_x(),
         };
-        self.history.advance(&mut thermal.damage, motion, criteria, contact, &seen, history);
+        self.history.advance(&mut thermal.damage, motion, contact, &seen, history);
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if hottest > SOFTENS {
             // The layers alone: growth held back in long steps would press the wheel onto the rail in the next short one.

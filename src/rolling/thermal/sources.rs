@@ -1,6 +1,7 @@
 //! Sources of heat beside friction: what the inputs and the brake bring into the wheel, and where.
 
 use crate::config::Config;
+use crate::damage::Criteria;
 use crate::heat::HeatSource;
 use crate::rolling::control::Drive;
 
@@ -21,6 +22,19 @@ pub struct HeatSources {
     blocks: BrakeBlocks,
     /// Width of the patch at the nominal load, over which the heat of the whole wheel spreads \[m].
     width: f64,
+}
+
+/// A heat step beside the mechanical one.
+#[derive(Clone, Copy, Debug)]
+pub struct HeatStep<'a> {
+    /// Length of the step \[s].
+    pub dt: f64,
+    /// True if another internal step follows before a communication point.
+    pub interim: bool,
+    /// Givers of heat beside friction.
+    pub supply: HeatSupply<'a>,
+    /// Limits that decide about the structure of the steel.
+    pub criteria: Criteria,
 }
 
 impl HeatSources {

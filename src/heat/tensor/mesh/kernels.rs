@@ -153,9 +153,25 @@ vectorised! {
 /// Nodes of a block, whose values are summed at a time.
 pub const NODES: usize = 16;
 
-/// Extremes of the sums of `B` registers of all shapes, each times its number in `row`.
+vectorised! {
+    /// Values of one row at the nodes of all blocks of [`extremes`].
+    fn values_at<'a, S>(simd, row: &'a [f64], blocks: &'a [Vec<f64>], out: &'a mut [f64]) {
+        for (block, out) in blocks.iter().zip(out.chunks_exact_mut(NODES)) {
+            let (shapes, out) = (S::as_simd_f64s(block).0, S::as_mut_simd_f64s(out).0);
+            match NODES / S::F64_LANES {
+                1 => out.copy_from_slice(&sums_of::<S, 1>(simd, row, shapes)),
+                2 => out.copy_from_slice(&sums_of::<S, 2>(simd, row, shapes)),
+                4 => out.copy_from_slice(&sums_of::<S, 4>(simd, row, shapes)),
+                8 => out.copy_from_slice(&sums_of::<S, 8>(simd, row, shapes)),
+                _ => out.copy_from_slice(&sums_of::<S, NODES>(simd, row, shapes)),
+            }
+        }
+    }
+}
+
+/// Sums of `B` registers of all shapes, each times its number in `row`.
 #[inline(always)]
-fn extremes_of<S: Simd, const B: usize>(simd: S, row: &[f64], shapes: &[S::f64s]) -> [S::f64s; 2] {
+fn sums_of<S: Simd, const B: usize>(simd: S, row: &[f64], shapes: &[S::f64s]) -> [S::f64s; B] {
     let mut sums = [simd.splat_f64s(0.0); B];
     for (&x, shape) in row.iter().zip(shapes.as_chunks::<B>().0) {
         let x = simd.splat_f64s(x);
@@ -163,6 +179,13 @@ fn extremes_of<S: Simd, const B: usize>(simd: S, row: &[f64], shapes: &[S::f64s]
             sums[q] = simd.mul_add_e_f64s(x, shape[q], sums[q]);
         }
     }
+    sums
+}
+
+/// Extremes of [`sums_of`].
+#[inline(always)]
+fn extremes_of<S: Simd, const B: usize>(simd: S, row: &[f64], shapes: &[S::f64s]) -> [S::f64s; 2] {
+    let sums = sums_of::<S, B>(simd, row, shapes);
     let mut ends = [sums[0]; 2];
     for &sum in &sums[1..] {
         ends = [simd.min_f64s(ends[0], sum), simd.max_f64s(ends[1], sum)];

@@ -68,6 +68,18 @@ impl Nodal {
         add_columns(1.0, &self.shapes, self.shapes.len() / self.modes, row, values);
     }
 
+    /// Room that [`Self::noticed_values`] needs.
+    pub fn room(&self) -> usize {
+        self.blocks.len() * kernels::NODES
+    }
+
+    /// Values at the nodes below one surface node in the first part of the `room`, but for what is negligible in
+    /// [`Self::extremes`].
+    pub fn noticed_values<'a>(&self, row: &[f64], room: &'a mut [f64]) -> &'a mut [f64] {
+        kernels::values_at(row, &self.blocks, room);
+        &mut room[..self.weights.len()]
+    }
+
     /// Adds a field given at the nodes below one surface node to its modes.
     pub fn add(&self, values: &[f64], row: &mut [f64]) {
         for (value, column) in values.iter().zip(self.to_modes.chunks_exact(self.modes)) {
