@@ -12,6 +12,7 @@
 
 mod across;
 pub mod chebyshev;
+mod coefficients;
 mod cone;
 mod cone_linear;
 mod cone_newton;
