@@ -8,18 +8,18 @@ use crate::contact::friction::CoefficientSearch;
 
 /// Error of a contact whose slip tells nothing about friction \[1].
 const ROUGHEST: f64 = 0.1;
-/// Coefficients that are tried.
+/// Friction coefficients that are tried.
 const MOST: usize = 150;
 /// Iterations of a contact whose friction varies over those of one whose friction does not.
 const FURTHER: usize = 10;
 
 /// The searches on all lines; `None`: the slip does not change friction.
-pub struct Coefficients {
+pub struct FrictionSearches {
     searches: Vec<Option<CoefficientSearch>>,
     tried: usize,
 }
 
-impl Coefficients {
+impl FrictionSearches {
     pub fn new(contact: &SeriesContact) -> Self {
         let begun = |line: &SeriesLine| {
             let law = &line.problem.line.friction;

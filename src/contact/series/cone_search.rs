@@ -3,7 +3,7 @@
 
 use super::across::Vectors;
 use super::chebyshev::{Arch, TERMS};
-use super::coefficients::Coefficients;
+use super::coefficients::FrictionSearches;
 use super::cone::{ConeProblem, ConeVerdict};
 use super::cone_linear::Linearised;
 use super::cone_newton::Newton;
@@ -32,7 +32,7 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let mut search = ConeSearch::new(contact);
     search.write(contact);
     let (mut normal, mut settling) = (contact.press_under_shear(PRESSED, CLOSE)?, Settling::by_errors(contact));
-    let (mut last, mut coefficients) = (None, Coefficients::new(contact));
+    let (mut last, mut coefficients) = (None, FrictionSearches::new(contact));
     for _ in 0..coefficients.rounds(MOST) {
         let before = Motions::of(contact);
         let violation = search.advance(contact)?;

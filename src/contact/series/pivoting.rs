@@ -1,7 +1,7 @@
 //! The search for states of [`super::points`] that obey friction, on all lines together.
 
 use super::chebyshev::{Arch, TERMS};
-use super::coefficients::Coefficients;
+use super::coefficients::FrictionSearches;
 use super::contact::{MOST_LINES, SeriesContact};
 use super::points::{COUNT, Directions, Pivoting, PointProblem, Shears};
 use super::series_line::SeriesLine;
@@ -137,7 +137,7 @@ fn on_points(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let states: Vec<Directions> = contact.lines.iter().map(SeriesLine::directions).collect();
     contact.lines.iter_mut().zip(states).for_each(|(line, states)| line.tractions.directions = Some(states));
     let (mut normal, mut settling) = (contact.press()?, Settling::new(contact));
-    let mut coefficients = Coefficients::new(contact);
+    let mut coefficients = FrictionSearches::new(contact);
     for _ in 0..coefficients.rounds(MOST) {
         let before = Motions::of(contact);
         let terms =

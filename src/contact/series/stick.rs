@@ -1,6 +1,6 @@
 //! The search for the places where slip begins.
 
-use super::coefficients::Coefficients;
+use super::coefficients::FrictionSearches;
 use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
 use super::state::Tractions;
@@ -59,7 +59,7 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     contact.displace();
     let mut normal = contact.press_under_shear(WARM, CLOSE)?;
     let (mut search, mut settling) = (Search::new(contact), Settling::by_errors(contact));
-    let (mut coefficients, mut friction) = (Coefficients::new(contact), 0.0_f64);
+    let (mut coefficients, mut friction) = (FrictionSearches::new(contact), 0.0_f64);
     // Normal and tangential problem improve each other by turns, and friction with them.
     for _ in 0..coefficients.rounds(MOST) {
         let error = settling.error(normal, search.advance(contact, normal.max(friction))?);
@@ -222,7 +222,7 @@ struct StickSearch {
     changes: usize,
     /// Last change of the length that a root proposed, and the one made \[1].
     proposed: Option<[f64; 2]>,
-    /// What the last one should have been divided by \[1].
+    /// Factor by which the last proposal was too large \[1].
     beyond: f64,
     /// Once the part that sticks would have carried more than friction.
     torn: bool,
