@@ -3,6 +3,7 @@
 
 use super::across::Vectors;
 use super::chebyshev::{Arch, TERMS};
+use super::coefficients::FrictionSearches;
 use super::cone::{ConeProblem, ConeVerdict};
 use super::cone_linear::Linearised;
 use super::cone_newton::Newton;
@@ -31,17 +32,20 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let mut search = ConeSearch::new(contact);
     search.write(contact);
     let (mut normal, mut settling) = (contact.press_under_shear(PRESSED, CLOSE)?, Settling::by_errors(contact));
-    let mut last = None;
-    for _ in 0..MOST {
+    let (mut last, mut coefficients) = (None, FrictionSearches::new(contact));
+    for _ in 0..coefficients.rounds(MOST) {
         let before = Motions::of(contact);
         let violation = search.advance(contact)?;
         // The next round changes as much less than this one as this one less than the last.
         let change = violation.max(before.moved(contact));
         let next = last.map_or(change, |last: f64| change * (change / last).min(1.0));
         last = Some(change.max(f64::MIN_POSITIVE));
-        if settling.is_last(normal, next) {
-            search.finish(contact);
-            return Ok(());
+        let error = settling.error(normal, next);
+        if settling.is_last(error.max(coefficients.follow(contact, error)?)) {
+            contact.find_slips();
+            if coefficients.settle(contact)? {
+                return Ok(());
+            }
         }
         normal = contact.press_under_shear(PRESSED, CLOSE)?;
     }
@@ -134,16 +138,6 @@ impl ConeSearch {
         contact.lines.iter_mut().for_each(|line| line.rigid = rigid);
         self.write(contact);
         Ok(violation)
-    }
-
-    /// Takes the slips of the solution.
-    fn finish(&self, contact: &mut SeriesContact) {
-        contact.exchange();
-        for line in &mut contact.lines {
-            let (places, _) = line.slipping();
-            line.slips = line.slip(&places, &line.surface, true);
-            line.across.slips = line.lateral_slip(&places, true);
-        }
     }
 }
 

@@ -125,7 +125,7 @@ fn remember(
         }
     }
     state.past[0] = now;
-    state.slope = line.slope;
+    (state.slope, state.law_slope) = (line.slope, line.law_slope);
     if !line.is_sideways() {
         return history.friction.advance(time, slope_power(line), |q| [force[q], line.slips[q]]);
     }

@@ -1,5 +1,4 @@
-//! Laws with several branches around the search for stick: brakes that slip or hold, and friction that depends on the
-//! slip.
+//! Brakes that slip or hold, around the search for stick.
 
 use super::cone_search;
 use super::constants::Constants;
@@ -10,7 +9,6 @@ use super::{open, pivoting};
 use crate::axes::PerAxis;
 use crate::contact::brake::{self, BrakeState};
 use crate::contact::error::ContactError;
-use crate::contact::friction::CoefficientSearch;
 use crate::contact::problem::{AxisDrive, ContactProblem, OneLine};
 use crate::linalg::DenseSystem;
 use std::cell::OnceCell;
@@ -23,8 +21,6 @@ const ROUND_OFF: f64 = 1e-9;
 pub const UNRESOLVED: f64 = 0.02;
 /// Layouts that follow the load.
 const MOST_LAYOUTS: usize = 30;
-/// Friction coefficients that are tried.
-const MOST_COEFFICIENTS: usize = 150;
 
 /// Solves the contact of lines with a single patch each and hands the solution to `finish`; `starts` are the results of
 /// the step before, one for each line, `system` is memory for their equations.
@@ -44,7 +40,8 @@ pub fn solve<R>(
         let mut contact = SeriesContact::new(lines, &rigid, Relaid { problem, memory: &memory });
         check_layers(&contact)?;
         std::mem::swap(&mut contact.system, system);
-        let found = find(&mut contact);
+        let solve = if contact.lines[0].is_sideways() { sideways } else { pivoting::solve };
+        let found = solve(&mut contact);
         std::mem::swap(&mut contact.system, system);
         found?;
         let opens = |line: &SeriesLine| line.pressed.force.iter().any(|force| *force < 0.0);
@@ -101,31 +98,4 @@ fn sideways(contact: &mut SeriesContact) -> Result<(), ContactError> {
     contact.lines.iter_mut().for_each(SeriesLine::begin_anew);
     (contact.opened, contact.partly) = (0, true);
     cone_search::solve(contact).map_err(|_| error)
-}
-
-/// Finds tractions and motions, and the friction coefficients that the laws of all lines give to their slips.
-fn find(contact: &mut SeriesContact) -> Result<(), ContactError> {
-    let solve = if contact.lines[0].is_sideways() { sideways } else { pivoting::solve };
-    solve(contact)?;
-    if !contact.lines.iter().any(|line| line.problem.line.friction.varies()) {
-        return Ok(());
-    }
-    let begun = |line: &SeriesLine| {
-        line.problem.line.friction.varies().then(|| CoefficientSearch::new(line.problem.line.friction.bounds()))
-    };
-    let mut searches: Vec<_> = contact.lines.iter().map(begun).collect();
-    for _ in 0..MOST_COEFFICIENTS {
-        let mut settled = true;
-        for (line, search) in contact.lines.iter_mut().zip(&mut searches) {
-            let found = line.problem.line.friction.coefficient(line.slip_speed());
-            if let Some(next) = search.as_mut().and_then(|search| search.next(line.friction, found)) {
-                (line.friction, settled) = (next, false);
-            }
-        }
-        if settled {
-            return Ok(());
-        }
-        solve(contact)?;
-    }
-    Err(ContactError::Unsuited { reason: "no friction coefficient belongs to its slip" })
 }

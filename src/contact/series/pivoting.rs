@@ -1,6 +1,7 @@
 //! The search for states of [`super::points`] that obey friction, on all lines together.
 
 use super::chebyshev::{Arch, TERMS};
+use super::coefficients::FrictionSearches;
 use super::contact::{MOST_LINES, SeriesContact};
 use super::points::{COUNT, Directions, Pivoting, PointProblem, Shears};
 use super::series_line::SeriesLine;
@@ -136,7 +137,8 @@ fn on_points(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let states: Vec<Directions> = contact.lines.iter().map(SeriesLine::directions).collect();
     contact.lines.iter_mut().zip(states).for_each(|(line, states)| line.tractions.directions = Some(states));
     let (mut normal, mut settling) = (contact.press()?, Settling::new(contact));
-    for _ in 0..MOST {
+    let mut coefficients = FrictionSearches::new(contact);
+    for _ in 0..coefficients.rounds(MOST) {
         let before = Motions::of(contact);
         let terms =
             |contact: &SeriesContact| -> Vec<_> { contact.lines.iter().map(|it| it.tractions.stick.terms).collect() };
@@ -148,12 +150,12 @@ fn on_points(contact: &mut SeriesContact) -> Result<(), ContactError> {
             changes.fold(0.0, f64::max) / most.max(f64::MIN_POSITIVE)
         });
         let change = change.fold(before.moved(contact), f64::max);
-        if settling.is_last(normal, change) {
-            for line in &mut contact.lines {
-                line.slips = line.slip(&line.slipping().0, &line.surface, true);
+        let error = settling.error(normal, change);
+        if settling.is_last(error.max(coefficients.follow(contact, error)?)) {
+            contact.find_slips();
+            if coefficients.settle(contact)? {
+                return Ok(());
             }
-            contact.exchange();
-            return Ok(());
         }
         normal = contact.press()?;
     }

@@ -55,10 +55,12 @@ pub struct SeriesLine<'a> {
     pub tractions: Tractions,
     /// V [m/s], U \[m], Ω [rad/s].
     pub rigid: PerAxis<f64>,
-    /// Tractions and motions with which the search began.
-    begun: (Tractions, PerAxis<f64>),
+    /// Tractions, motions and friction with which the search began.
+    begun: (Tractions, PerAxis<f64>, f64),
     /// See [`SeriesState::slope`].
     pub slope: f64,
+    /// See [`SeriesState::law_slope`].
+    pub law_slope: f64,
     /// Rim angle \[rad].
     pub rim_angle: f64,
     /// Friction coefficient \[1], and that of the step before.
@@ -92,6 +94,7 @@ impl<'a> SeriesLine<'a> {
         let mut rigid = problem.rigid.map(|motion| motion.start());
         rigid.height = problem.rigid.height.target().unwrap_or(traction.rigid.height);
         let tractions = before.expected(&problem.line.time);
+        let friction = problem.line.friction.coefficient(traction.friction.slip_speed);
         let layers = SeriesLayers::new(constants, &problem, &before.tractions.pressure);
         Self {
             constants,
@@ -103,10 +106,11 @@ impl<'a> SeriesLine<'a> {
             layers,
             tractions,
             rigid,
-            begun: (tractions, rigid),
+            begun: (tractions, rigid, friction),
             slope: before.slope,
+            law_slope: before.law_slope,
             rim_angle: history.rim_angle.now,
-            friction: problem.line.friction.coefficient(traction.friction.slip_speed),
+            friction,
             before_friction: traction.friction.coefficient,
             pressed: Places::default(),
             stuck: Places::default(),
@@ -123,8 +127,9 @@ impl<'a> SeriesLine<'a> {
 
     /// Returns to where the search began.
     pub fn begin_anew(&mut self) {
-        (self.tractions, self.rigid) = self.begun;
-        (self.slope, self.rim_angle) = (self.before.slope, self.history.rim_angle.now);
+        (self.tractions, self.rigid, self.friction) = self.begun;
+        (self.slope, self.law_slope) = (self.before.slope, self.before.law_slope);
+        self.rim_angle = self.history.rim_angle.now;
     }
 
     /// Goes on in another layout, with its load times `factor`.

@@ -110,6 +110,8 @@ pub struct SeriesState {
     /// How the root at the place where slip begins depends on this place: change of its strength over the friction at
     /// the peak of the pressure, per share of the patch \[1]; where the search of the next step starts.
     pub slope: f64,
+    /// How the excess of friction over its law depends on the coefficient \[1]; where the search of the next step starts.
+    pub law_slope: f64,
 }
 
 impl Default for Past {

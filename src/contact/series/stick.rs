@@ -1,5 +1,6 @@
 //! The search for the places where slip begins.
 
+use super::coefficients::FrictionSearches;
 use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
 use super::state::Tractions;
@@ -26,6 +27,8 @@ const LONG: f64 = 1e-6;
 const NOTICED: f64 = 10.0;
 /// Largest change of the length of stick, over this length, that is a step of Newton's method \[1].
 const NEAR: f64 = 0.02;
+/// Proposed changes of the length over the right ones beyond which they ring \[1].
+const RINGING: f64 = 1.3;
 /// Change of the root with the share, over that of Carter's tractions, with which it is one \[1].
 const BELIEVED: std::ops::Range<f64> = 0.2..5.0;
 /// Error that a pass leaves, over its changes of pressures, motions and places where slip begins \[1]: pressures follow shears,
@@ -56,11 +59,16 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     contact.displace();
     let mut normal = contact.press_under_shear(WARM, CLOSE)?;
     let (mut search, mut settling) = (Search::new(contact), Settling::by_errors(contact));
-    // Normal and tangential problem improve each other by turns.
-    for _ in 0..MOST {
-        let tangential = search.advance(contact, normal)?;
-        if settling.is_last(normal, tangential) && search.check(contact)? {
-            return Ok(());
+    let (mut coefficients, mut friction) = (FrictionSearches::new(contact), 0.0_f64);
+    // Normal and tangential problem improve each other by turns, and friction with them.
+    for _ in 0..coefficients.rounds(MOST) {
+        let error = settling.error(normal, search.advance(contact, normal.max(friction))?);
+        friction = coefficients.follow(contact, error)?;
+        if settling.is_last(error.max(friction)) && search.check(contact)? {
+            if coefficients.settle(contact)? {
+                return Ok(());
+            }
+            search.begin_anew();
         }
         normal = contact.press()?;
     }
@@ -107,10 +115,13 @@ impl Settling {
         Self { tolerance: if stationary { AT_REST } else { tolerance }, pressed, last: f64::INFINITY }
     }
 
-    /// True if the relative change of the pressure in an iteration, and the change or error of all else, are the last ones that
-    /// count.
-    pub fn is_last(&mut self, normal: f64, tangential: f64) -> bool {
-        let change = tangential.max(self.pressed * normal);
+    /// Error that an iteration leaves, by the relative change of the pressure and the change or error of all else \[1].
+    pub fn error(&self, normal: f64, tangential: f64) -> f64 {
+        tangential.max(self.pressed * normal)
+    }
+
+    /// True if an error is the last one that counts.
+    pub fn is_last(&mut self, change: f64) -> bool {
         let last = std::mem::replace(&mut self.last, change);
         change <= self.tolerance || change <= ROUNDING && change >= last
     }
@@ -152,10 +163,17 @@ impl Search {
         Ok(left)
     }
 
+    /// Forgets what is of other friction coefficients.
+    fn begin_anew(&mut self) {
+        for line in &mut self.lines {
+            (line.last, line.proposed, line.changes, line.torn) = (None, None, 0, false);
+        }
+    }
+
     /// True if the solution obeys friction on every line; `false`: the search has to go on.
     fn check(&mut self, contact: &mut SeriesContact) -> Result<bool, ContactError> {
         let mut obeyed = true;
-        contact.exchange();
+        contact.find_slips();
         for (line, search) in contact.lines.iter_mut().zip(&mut self.lines) {
             obeyed &= search.check(line)?;
             line.slope = search.slope(line);
@@ -202,6 +220,10 @@ struct StickSearch {
     /// Largest relative change in the iteration before.
     moving: f64,
     changes: usize,
+    /// Last change of the length that a root proposed, and the one made \[1].
+    proposed: Option<[f64; 2]>,
+    /// Factor by which the last proposal was too large \[1].
+    beyond: f64,
     /// Once the part that sticks would have carried more than friction.
     torn: bool,
 }
@@ -219,7 +241,7 @@ impl StickSearch {
         let share = share.filter(|_| mu > 0.0).map(|share| share.clamp(SHORTEST, 1.0));
         let known = it.slope;
         let slope = Self::quasistatic(it) * if known > 0.0 { known } else { 1.0 };
-        Self { share, last: None, slope, moving: 0.0, changes: 0, torn: false }
+        Self { share, last: None, slope, moving: 0.0, changes: 0, proposed: None, beyond: 1.0, torn: false }
     }
 
     /// Change of the root per share in stationary rolling on half-planes: that of Carter's tractions \[Pa].
@@ -249,7 +271,7 @@ impl StickSearch {
         }
         self.last = Some([share, root]);
         let peak = it.friction * it.tractions.pressure.terms[0];
-        if let Some(left) = self.absorb(it, root, moved) {
+        if let Some(left) = self.absorb(it, root, [normal, moved]) {
             return Ok(left);
         }
         let next = share - root / self.slope;
@@ -279,9 +301,9 @@ impl StickSearch {
     ///
     /// A traction with its root is, to first order, one without on another length, whose slip, moments and motions are the
     /// same. So this is a step of Newton's method for all lines together.
-    fn absorb(&mut self, it: &mut SeriesLine, root: f64, moved: f64) -> Option<f64> {
+    fn absorb(&mut self, it: &mut SeriesLine, root: f64, [normal, moved]: [f64; 2]) -> Option<f64> {
         let (share, slope) = (self.share?, it.root_by_share());
-        let change = -root / slope;
+        let change = self.calmed(-root / slope, normal);
         let near = change.abs() <= NEAR * share && share + change < 1.0 && share + change > SHORTEST;
         if !near || !BELIEVED.contains(&(slope / Self::quasistatic(it))) {
             return None;
@@ -292,18 +314,29 @@ impl StickSearch {
         Some((change * change / share).max(BEHIND * self.moving))
     }
 
+    /// A proposed change of the length, in proportion to what the last one has led to where it went beyond the solution.
+    fn calmed(&mut self, proposed: f64, normal: f64) -> f64 {
+        let gone = |[last, step]: [f64; 2]| (step.abs() > LONG.max(NOTICED * normal)).then(|| (last - proposed) / step);
+        if let Some(beyond) = self.proposed.and_then(gone) {
+            self.beyond = if beyond > RINGING { beyond } else { 1.0 };
+        }
+        let step = proposed / self.beyond;
+        self.proposed = Some([proposed, step]);
+        step
+    }
+
     fn turn_over(&mut self, it: &mut SeriesLine, share: Option<f64>) -> Result<(), ContactError> {
         self.changes += 1;
         if self.changes > CHANGES {
             return Err(ContactError::Unsuited { reason: "stick and slip change places" });
         }
         (self.share, self.last, self.slope) = (share, None, Self::quasistatic(it));
+        (self.proposed, self.beyond) = (None, 1.0);
         Ok(())
     }
 
     /// True if the solution obeys friction; `false`: the search has to go on.
     fn check(&mut self, it: &mut SeriesLine) -> Result<bool, ContactError> {
-        it.slips = it.slip(&it.slipping().0, &it.surface, true);
         if it.friction == 0.0 {
             return Ok(true);
         }
