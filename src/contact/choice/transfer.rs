@@ -183,8 +183,12 @@ pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &Contac
         Past::Grid(grid.x[even.start], grid.spacing, state.tangential_gap[even.clone()].iter().map(value).collect())
     };
     let friction = friction_history(constants, &tractions, side, from);
-    let patch =
-        SeriesState { tractions, kernel: LineKernel::default(), past: [history(false), history(true)], slope: 0.0 };
+    let patch = SeriesState {
+        tractions,
+        kernel: LineKernel::default(),
+        past: [history(false), history(true)],
+        ..SeriesState::default()
+    };
     let mut moved = ContactState {
         ports: Ports::Smooth,
         traction: traction.clone(),

@@ -165,7 +165,7 @@ impl ConeProblem {
     pub fn within(&self, shear: &Vectors, ratio: f64) -> Vectors {
         let mut within = shear.map(|shear| shear.map(|q| ratio * q));
         for (i, bears) in self.bears.iter().enumerate() {
-            let size = libm::hypot(within[0][i], within[1][i]);
+            let size = length([within[0][i], within[1][i]]);
             if size > *bears {
                 within.iter_mut().for_each(|shear| shear[i] *= bears / size);
             }
@@ -178,7 +178,7 @@ impl ConeProblem {
     pub fn correction(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
         let [upstream, in_place] = self.rows.each_ref().map(|rows| rows.slips(shear, others));
         let weight = |i: usize| {
-            let ahead = libm::hypot(upstream[0][i], upstream[1][i]) / self.least[i];
+            let ahead = length([upstream[0][i], upstream[1][i]]) / self.least[i];
             let sum = ahead + BEGINNING * self.bears[i];
             if sum > 0.0 { ahead / sum } else { 0.0 }
         };
@@ -225,14 +225,14 @@ impl ConeProblem {
     fn judge(&self, i: usize, q: [f64; 2], s: [f64; 2]) -> (PointState, f64) {
         let (bears, least) = (self.bears[i], self.least[i]);
         let held = [0, 1].map(|c| q[c] - s[c] / least);
-        let size = libm::hypot(held[0], held[1]);
+        let size = length(held);
         if size <= bears {
-            return (PointState::Stick { slip: s }, libm::hypot(s[0], s[1]) / least);
+            return (PointState::Stick { slip: s }, length(s) / least);
         }
         let (direction, share) = (held.map(|z| z / size), bears / size);
         let turn = if share > 0.0 { (1.0 - share) / share * least } else { f64::INFINITY };
         let excess = [0, 1].map(|c| q[c] - bears * direction[c]);
-        (PointState::Slip { direction, turn, excess }, libm::hypot(excess[0], excess[1]))
+        (PointState::Slip { direction, turn, excess }, length(excess))
     }
 }
 
@@ -244,6 +244,11 @@ impl ConeVerdict {
             PointState::Slip { .. } => 1,
         })
     }
+}
+
+/// Length of a vector of shear or slip, whose squares are in range.
+fn length([along, across]: [f64; 2]) -> f64 {
+    (along * along + across * across).sqrt()
 }
 
 /// Coefficients along and across as one list.

@@ -79,12 +79,20 @@ impl LinearLine {
         }
         let mut line =
             Self { points, unknowns, system, responses: [[[0.0; COUNT]; 2]; SLIPS], moments: [[0.0; SLIPS]; SLIPS] };
-        for k in 0..SLIPS {
-            let power = rows.powers[k % POINTS];
-            let right = |unknown: &Unknown| unknown.along[k / POINTS] * power[unknown.point];
-            line.responses[k] = line.solve(right)?;
-            line.moments[k] = problem.moments(&line.responses[k]);
+        let mut values = [[0.0; SLIPS]; 2 * COUNT];
+        let values = &mut values[..line.unknowns.len()];
+        for (value, Unknown { point, along, .. }) in values.iter_mut().zip(&line.unknowns) {
+            *value = std::array::from_fn(|k| along[k / POINTS] * rows.powers[k % POINTS][*point]);
         }
+        if !line.system.solve_with_all(values) {
+            return None;
+        }
+        for (value, Unknown { point, along, .. }) in values.iter().zip(&line.unknowns) {
+            for (response, value) in line.responses.iter_mut().zip(value) {
+                response.iter_mut().zip(along).for_each(|(shear, along)| shear[*point] += along * value);
+            }
+        }
+        line.moments = line.responses.map(|response| problem.moments(&response));
         Some(line)
     }
 

@@ -10,6 +10,7 @@ use super::contact::SeriesContact;
 use super::places::total;
 use super::points::COUNT;
 use super::series_line::SeriesLine;
+use super::state::Uncorrected;
 use super::stick::{Motions, Settling};
 use crate::axes::PerAxis;
 use crate::contact::error::ContactError;
@@ -19,25 +20,26 @@ const MOST: usize = 40;
 /// Iterations of the normal problem at most between those of the tangential one, which take ten times as long, and the
 /// relative change that ends them \[1].
 const PRESSED: usize = 40;
-const CLOSE: f64 = 1e-10;
-/// Violation of friction that ends Newton's method \[1], and the share of that before which does: far less than what the
-/// change of the pressure with the shear brings back.
-const TOLERANCE: f64 = 1e-12;
+const CLOSE: f64 = 1e-9;
+/// Violation of friction that ends Newton's method \[1], in equilibria, and at most; and the share of that before which does:
+/// about what the change of the pressure with the shear brings back.
+const TOLERANCE: f64 = 1e-9;
+const AT_REST: f64 = 1e-12;
 const ROUGHEST: f64 = 1e-2;
-const SHARE: f64 = 1e-5;
+const SHARE: f64 = 1e-3;
 
 /// Finds tractions and motions of lines that slip along and across.
 pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let mut search = ConeSearch::new(contact);
     search.write(contact);
-    let (mut normal, mut settling) = (contact.press_under_shear(PRESSED, CLOSE)?, Settling::by_errors(contact));
+    let (mut normal, mut settling) = (contact.press_under_shear(PRESSED, CLOSE)?, Settling::of_shear(contact));
     let mut last = None;
     for _ in 0..MOST {
         let before = Motions::of(contact);
         let violation = search.advance(contact)?;
-        // The next round changes as much less than this one as this one less than the last.
+        // The next round changes as much less than this one as this one less than the last, and far less than this one.
         let change = violation.max(before.moved(contact));
-        let next = last.map_or(change, |last: f64| change * (change / last).min(1.0));
+        let next = change * last.map_or(SHARE, |last: f64| (change / last).min(SHARE));
         last = Some(change.max(f64::MIN_POSITIVE));
         if settling.is_last(normal, next) {
             search.finish(contact);
@@ -59,6 +61,8 @@ struct ConeSearch {
     most: Vec<f64>,
     /// True until a first correction has been found.
     first: bool,
+    /// Violation of friction that ends Newton's method \[1].
+    tolerance: f64,
     /// Linear laws of both searches.
     linear: [Option<Linearised>; 2],
 }
@@ -71,14 +75,20 @@ impl ConeSearch {
             None => [[0.0; COUNT]; 2],
         };
         let shears: Vec<_> = contact.lines.iter().map(shear).collect();
+        let uncorrected = |(shear, line): (&Vectors, &SeriesLine)| {
+            let further = &line.across.uncorrected.shear;
+            std::array::from_fn(|c| std::array::from_fn(|i| shear[c][i] + further[c][i]))
+        };
+        let uncorrected = shears.iter().zip(&contact.lines).map(uncorrected).collect();
         let most = contact.lines.iter().map(|line| line.before_friction * line.tractions.pressure.terms[0]);
         Self {
-            uncorrected: shears.clone(),
-            uncorrected_motion: PerAxis::default(),
+            uncorrected,
+            uncorrected_motion: contact.lines[0].across.uncorrected.motion,
             shears,
             states: vec![[0; COUNT]; contact.lines.len()],
             most: most.collect(),
             first: true,
+            tolerance: if contact.lines[0].problem.line.time.is_stationary() { AT_REST } else { TOLERANCE },
             linear: [None, None],
         }
     }
@@ -108,12 +118,10 @@ impl ConeSearch {
         let [without, with] = &mut self.linear;
         newton.linear = without.take();
         let mut violation = newton.largest(contact);
-        newton.run(contact, (SHARE * violation).clamp(TOLERANCE, ROUGHEST))?;
+        newton.run(contact, (SHARE * violation).clamp(self.tolerance, ROUGHEST))?;
         // A first law with the correction: that without it may lead on.
-        without.clone_from(&newton.linear);
-        if let Some(with) = with.take() {
-            newton.linear = Some(with);
-        }
+        *without = newton.linear.take();
+        newton.linear = with.take().or_else(|| without.clone());
         self.uncorrected.clone_from(&newton.shears);
         let motion = newton.rigid;
         newton.correct(contact);
@@ -125,7 +133,7 @@ impl ConeSearch {
         }
         let further = newton.largest(contact);
         violation = violation.max(further);
-        newton.run(contact, (SHARE * further).clamp(TOLERANCE, ROUGHEST))?;
+        newton.run(contact, (SHARE * further).clamp(self.tolerance, ROUGHEST))?;
         *with = newton.linear.take();
         self.uncorrected_motion = PerAxis::from_fn(|axis| motion[axis] - newton.rigid[axis]);
         self.shears = newton.shears;
@@ -139,7 +147,9 @@ impl ConeSearch {
     /// Takes the slips of the solution.
     fn finish(&self, contact: &mut SeriesContact) {
         contact.exchange();
-        for line in &mut contact.lines {
+        for ((line, shear), uncorrected) in contact.lines.iter_mut().zip(&self.shears).zip(&self.uncorrected) {
+            let further = std::array::from_fn(|c| std::array::from_fn(|i| uncorrected[c][i] - shear[c][i]));
+            line.across.uncorrected = Uncorrected { shear: further, motion: self.uncorrected_motion };
             let (places, _) = line.slipping();
             line.slips = line.slip(&places, &line.surface, true);
             line.across.slips = line.lateral_slip(&places, true);

@@ -1,7 +1,9 @@
 //! State of a line as series: its tractions, and the displacements that the slip of the next step refers to.
 
+use super::across::Vectors;
 use super::chebyshev::{Arch, logarithm_of_both};
 use super::points::Directions;
+use crate::axes::PerAxis;
 use crate::contact::flexibility::{ByPowers, at, powers, values};
 use crate::contact::kernel::{LineKernel, Logarithm};
 use crate::linalg::{Lagrange, POINTS};
@@ -110,6 +112,24 @@ pub struct SeriesState {
     /// How the root at the place where slip begins depends on this place: change of its strength over the friction at
     /// the peak of the pressure, per share of the patch \[1]; where the search of the next step starts.
     pub slope: f64,
+    /// Solution without the correction of the slips less that with it.
+    pub uncorrected: Uncorrected,
+}
+
+/// Shear and motions along and across without the correction of the slips ([`super::cone`]) less those with it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Uncorrected {
+    /// Shear at the points \[Pa].
+    pub shear: Vectors,
+    /// Motions, which all lines have in common [m/s, m, rad/s].
+    pub motion: PerAxis<f64>,
+}
+
+impl Uncorrected {
+    /// True if all numbers are finite.
+    pub fn is_sound(&self) -> bool {
+        self.shear.as_flattened().iter().all(|q| q.is_finite()) && self.motion.iter().all(|(_, rate)| rate.is_finite())
+    }
 }
 
 impl Default for Past {
