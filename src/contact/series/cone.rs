@@ -16,6 +16,7 @@ use super::surface::SmoothSurfaces;
 use crate::contact::flexibility::{ByMoments, ByPowers};
 use crate::contact::kernel::Logarithm;
 use crate::linalg::POINTS;
+use crate::linalg::vectorised::vectorised;
 use std::f64::consts::PI;
 
 /// Coefficients of the polynomials of slip along and across.
@@ -69,6 +70,15 @@ pub struct ConeVerdict {
     pub largest: f64,
 }
 
+vectorised! {
+    /// Adds slips of all points by given strengths of something.
+    fn add_slips<'a, S>(_simd, by: &'a [[f64; COUNT]], strengths: &'a [f64], slips: &'a mut [f64; COUNT]) {
+        for (by, strength) in by.iter().zip(strengths) {
+            slips.iter_mut().zip(by).for_each(|(slip, by)| *slip += by * strength);
+        }
+    }
+}
+
 impl SlipRows {
     /// Mean with others, which have a `share`.
     fn mean(mut self, other: &Self, share: f64) -> Self {
@@ -91,9 +101,7 @@ impl SlipRows {
     /// Slips by a shear beside given ones.
     fn beside(&self, mut slips: Vectors, shear: &Vectors) -> Vectors {
         for ((slips, by_shear), shear) in slips.iter_mut().zip(&self.by_shear).zip(shear) {
-            for (by, q) in by_shear.iter().zip(shear) {
-                slips.iter_mut().zip(by).for_each(|(slip, by)| *slip += by * q);
-            }
+            add_slips(by_shear, shear, slips);
         }
         slips
     }
@@ -101,9 +109,7 @@ impl SlipRows {
     fn slips(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
         let mut slips = self.beside(self.known, shear);
         for (slips, others) in slips.iter_mut().zip(others.as_chunks::<POINTS>().0) {
-            for (power, value) in self.powers.iter().zip(others) {
-                slips.iter_mut().zip(power).for_each(|(slip, power)| *slip += value * power);
-            }
+            add_slips(&self.powers, others, slips);
         }
         slips
     }

@@ -136,9 +136,10 @@ impl ConeSearch {
         newton.run(contact, (SHARE * further).clamp(self.tolerance, ROUGHEST))?;
         *with = newton.linear.take();
         self.uncorrected_motion = PerAxis::from_fn(|axis| motion[axis] - newton.rigid[axis]);
-        self.shears = newton.shears;
         self.states = newton.verdicts.iter().map(ConeVerdict::states).collect();
-        let rigid = newton.rigid;
+        let (shears, rigid) = (newton.shears, newton.rigid);
+        // No shear leaves its disc, whatever the tolerance.
+        self.shears = shears.iter().zip(&problems).map(|(shear, problem)| problem.within(shear, 1.0)).collect();
         contact.lines.iter_mut().for_each(|line| line.rigid = rigid);
         self.write(contact);
         Ok(violation)
