@@ -1,7 +1,6 @@
 //! From points to a grid and back: both describe the same surfaces, and what the slip of the next step refers to, the
 //! tangential displacement at the last two times, goes over as a function of x.
 
-use crate::contact::kernel::LineKernel;
 use crate::contact::line::{ContactGrid, FrictionHistory, GridState, LineHistory, NodeStatus};
 use crate::contact::series::chebyshev::TERMS;
 use crate::contact::series::constants::Constants;
@@ -183,12 +182,7 @@ pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &Contac
         Past::Grid(grid.x[even.start], grid.spacing, state.tangential_gap[even.clone()].iter().map(value).collect())
     };
     let friction = friction_history(constants, &tractions, side, from);
-    let patch = SeriesState {
-        tractions,
-        kernel: LineKernel::default(),
-        past: [history(false), history(true)],
-        ..SeriesState::default()
-    };
+    let patch = SeriesState { tractions, past: [history(false), history(true)], ..SeriesState::default() };
     let mut moved = ContactState {
         ports: Ports::Smooth,
         traction: traction.clone(),

@@ -1,8 +1,7 @@
 //! State of a line as series: its tractions, and the displacements that the slip of the next step refers to.
 
-use super::across::Vectors;
 use super::chebyshev::{Arch, logarithm_of_both};
-use super::points::Directions;
+use super::points::{COUNT, Directions};
 use crate::axes::PerAxis;
 use crate::contact::flexibility::{ByPowers, at, powers, values};
 use crate::contact::kernel::{LineKernel, Logarithm};
@@ -120,7 +119,7 @@ pub struct SeriesState {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Uncorrected {
     /// Shear at the points \[Pa].
-    pub shear: Vectors,
+    pub shear: [[f64; COUNT]; 2],
     /// Motions, which all lines have in common [m/s, m, rad/s].
     pub motion: PerAxis<f64>,
 }
