@@ -57,12 +57,20 @@ impl DenseSystem {
         self.order.iter().zip(&self.permuted).for_each(|(&to, value)| x[to] = *value);
         x.iter().all(|x| x.is_finite())
     }
+
+    /// [`Self::solve_with`] for right-hand sides side by side.
+    pub fn solve_with_all<const N: usize>(&self, x: &mut [[f64; N]]) -> bool {
+        substitute_all(&self.rows, x);
+        let permuted = x.to_vec();
+        self.order.iter().zip(&permuted).for_each(|(&to, value)| x[to] = *value);
+        x.as_flattened().iter().all(|x| x.is_finite())
+    }
 }
 
 vectorised! {
     /// Replaces a matrix, given by rows, by its factors, and exchanges the items of `order` with its columns; false: it is
     /// singular or not finite.
-    fn factorise<'a, S>(_simd, rows: &'a mut [f64], order: &'a mut [usize]) -> bool {
+    fn factorise<'a, S>(simd, rows: &'a mut [f64], order: &'a mut [usize]) -> bool {
         let n = order.len();
         for k in 0..n {
             let row = &rows[k * n..][..n];
@@ -85,9 +93,13 @@ vectorised! {
             for row in below.chunks_exact_mut(n) {
                 let factor = row[k] * over;
                 row[k] = factor;
-                for (value, pivot) in row[k + 1..].iter_mut().zip(&pivots[k + 1..]) {
-                    *value -= factor * pivot;
+                let (values, values_rest) = S::as_mut_simd_f64s(&mut row[k + 1..]);
+                let (others, others_rest) = S::as_simd_f64s(&pivots[k + 1..]);
+                let less = simd.splat_f64s(-factor);
+                for (value, other) in values.iter_mut().zip(others) {
+                    *value = simd.mul_add_e_f64s(less, *other, *value);
                 }
+                values_rest.iter_mut().zip(others_rest).for_each(|(value, other)| *value -= factor * other);
             }
         }
         true
@@ -110,6 +122,28 @@ vectorised! {
         for i in (0..n).rev() {
             let row = &factors[i * n..][..n];
             x[i] = (x[i] - product(&row[i + 1..], &x[i + 1..])) / row[i];
+        }
+    }
+}
+
+vectorised! {
+    /// `X ← U⁻¹ L⁻¹ X` with the factors of a matrix, both by rows.
+    fn substitute_all<'a, S, const N: usize>(_simd, factors: &'a [f64], x: &'a mut [[f64; N]]) {
+        let n = x.len();
+        let take = |row: &mut [f64; N], factors: &[f64], others: &[[f64; N]]| {
+            for (factor, other) in factors.iter().zip(others) {
+                row.iter_mut().zip(other).for_each(|(value, other)| *value -= factor * other);
+            }
+        };
+        for i in 0..n {
+            let (above, below) = x.split_at_mut(i);
+            take(&mut below[0], &factors[i * n..][..i], above);
+        }
+        for i in (0..n).rev() {
+            let (row, (above, below)) = (&factors[i * n..][..n], x.split_at_mut(i + 1));
+            take(&mut above[i], &row[i + 1..], below);
+            let over = 1.0 / row[i];
+            above[i].iter_mut().for_each(|value| *value *= over);
         }
     }
 }

@@ -16,6 +16,7 @@ use super::surface::SmoothSurfaces;
 use crate::contact::flexibility::{ByMoments, ByPowers};
 use crate::contact::kernel::Logarithm;
 use crate::linalg::POINTS;
+use crate::linalg::vectorised::vectorised;
 use std::f64::consts::PI;
 
 /// Coefficients of the polynomials of slip along and across.
@@ -69,6 +70,15 @@ pub struct ConeVerdict {
     pub largest: f64,
 }
 
+vectorised! {
+    /// Adds slips of all points by given strengths of something.
+    fn add_slips<'a, S>(_simd, by: &'a [[f64; COUNT]], strengths: &'a [f64], slips: &'a mut [f64; COUNT]) {
+        for (by, strength) in by.iter().zip(strengths) {
+            slips.iter_mut().zip(by).for_each(|(slip, by)| *slip += by * strength);
+        }
+    }
+}
+
 impl SlipRows {
     /// Mean with others, which have a `share`.
     fn mean(mut self, other: &Self, share: f64) -> Self {
@@ -91,9 +101,7 @@ impl SlipRows {
     /// Slips by a shear beside given ones.
     fn beside(&self, mut slips: Vectors, shear: &Vectors) -> Vectors {
         for ((slips, by_shear), shear) in slips.iter_mut().zip(&self.by_shear).zip(shear) {
-            for (by, q) in by_shear.iter().zip(shear) {
-                slips.iter_mut().zip(by).for_each(|(slip, by)| *slip += by * q);
-            }
+            add_slips(by_shear, shear, slips);
         }
         slips
     }
@@ -101,9 +109,7 @@ impl SlipRows {
     fn slips(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
         let mut slips = self.beside(self.known, shear);
         for (slips, others) in slips.iter_mut().zip(others.as_chunks::<POINTS>().0) {
-            for (power, value) in self.powers.iter().zip(others) {
-                slips.iter_mut().zip(power).for_each(|(slip, power)| *slip += value * power);
-            }
+            add_slips(&self.powers, others, slips);
         }
         slips
     }
@@ -165,7 +171,7 @@ impl ConeProblem {
     pub fn within(&self, shear: &Vectors, ratio: f64) -> Vectors {
         let mut within = shear.map(|shear| shear.map(|q| ratio * q));
         for (i, bears) in self.bears.iter().enumerate() {
-            let size = libm::hypot(within[0][i], within[1][i]);
+            let size = length([within[0][i], within[1][i]]);
             if size > *bears {
                 within.iter_mut().for_each(|shear| shear[i] *= bears / size);
             }
@@ -178,7 +184,7 @@ impl ConeProblem {
     pub fn correction(&self, shear: &Vectors, others: &[f64; SLIPS]) -> Vectors {
         let [upstream, in_place] = self.rows.each_ref().map(|rows| rows.slips(shear, others));
         let weight = |i: usize| {
-            let ahead = libm::hypot(upstream[0][i], upstream[1][i]) / self.least[i];
+            let ahead = length([upstream[0][i], upstream[1][i]]) / self.least[i];
             let sum = ahead + BEGINNING * self.bears[i];
             if sum > 0.0 { ahead / sum } else { 0.0 }
         };
@@ -225,14 +231,14 @@ impl ConeProblem {
     fn judge(&self, i: usize, q: [f64; 2], s: [f64; 2]) -> (PointState, f64) {
         let (bears, least) = (self.bears[i], self.least[i]);
         let held = [0, 1].map(|c| q[c] - s[c] / least);
-        let size = libm::hypot(held[0], held[1]);
+        let size = length(held);
         if size <= bears {
-            return (PointState::Stick { slip: s }, libm::hypot(s[0], s[1]) / least);
+            return (PointState::Stick { slip: s }, length(s) / least);
         }
         let (direction, share) = (held.map(|z| z / size), bears / size);
         let turn = if share > 0.0 { (1.0 - share) / share * least } else { f64::INFINITY };
         let excess = [0, 1].map(|c| q[c] - bears * direction[c]);
-        (PointState::Slip { direction, turn, excess }, libm::hypot(excess[0], excess[1]))
+        (PointState::Slip { direction, turn, excess }, length(excess))
     }
 }
 
@@ -244,6 +250,11 @@ impl ConeVerdict {
             PointState::Slip { .. } => 1,
         })
     }
+}
+
+/// Length of a vector of shear or slip, whose squares are in range.
+fn length([along, across]: [f64; 2]) -> f64 {
+    (along * along + across * across).sqrt()
 }
 
 /// Coefficients along and across as one list.

@@ -7,6 +7,7 @@ use super::points::COUNT;
 use super::series_line::SeriesLine;
 use crate::axes::Axis;
 use crate::contact::flexibility::{ByPowers, polynomial};
+use crate::linalg::vectorised::vectorised;
 use crate::linalg::{DenseSystem, POINTS};
 
 /// One unknown of the linear law with its equation: part of the shear of a point in a direction.
@@ -79,12 +80,20 @@ impl LinearLine {
         }
         let mut line =
             Self { points, unknowns, system, responses: [[[0.0; COUNT]; 2]; SLIPS], moments: [[0.0; SLIPS]; SLIPS] };
-        for k in 0..SLIPS {
-            let power = rows.powers[k % POINTS];
-            let right = |unknown: &Unknown| unknown.along[k / POINTS] * power[unknown.point];
-            line.responses[k] = line.solve(right)?;
-            line.moments[k] = problem.moments(&line.responses[k]);
+        let mut values = [[0.0; SLIPS]; 2 * COUNT];
+        let values = &mut values[..line.unknowns.len()];
+        for (value, Unknown { point, along, .. }) in values.iter_mut().zip(&line.unknowns) {
+            *value = std::array::from_fn(|k| along[k / POINTS] * rows.powers[k % POINTS][*point]);
         }
+        if !line.system.solve_with_all(values) {
+            return None;
+        }
+        for (value, Unknown { point, along, .. }) in values.iter().zip(&line.unknowns) {
+            for (response, value) in line.responses.iter_mut().zip(value) {
+                response.iter_mut().zip(along).for_each(|(shear, along)| shear[*point] += along * value);
+            }
+        }
+        line.moments = line.responses.map(|response| problem.moments(&response));
         Some(line)
     }
 
@@ -136,11 +145,47 @@ impl LinearLine {
     }
 }
 
+/// A free motion and the lines: slips of every line by a unit of it, as coefficients of polynomials along, then across, and
+/// the part that a unit of each moment of the shear of every line has in its balance.
+pub struct FreeMotion {
+    pub axis: Axis,
+    pub slips: Vec<[f64; SLIPS]>,
+    pulls: Vec<[f64; SLIPS]>,
+}
+
+impl FreeMotion {
+    /// All that are free.
+    pub fn all(contact: &SeriesContact) -> Vec<Self> {
+        let of = |axis| {
+            let slips = contact.lines.iter().map(|line| line.slips_by_motion(axis)).collect();
+            let pull = |line| {
+                std::array::from_fn(|k| {
+                    let moments: [f64; SLIPS] = std::array::from_fn(|n| if n == k { 1.0 } else { 0.0 });
+                    contact.pull_of(axis, line, &moments)
+                })
+            };
+            Self { axis, slips, pulls: (0..contact.lines.len()).map(pull).collect() }
+        };
+        contact.free_axes().map(of).collect()
+    }
+
+    /// Part of the shear of a line in the balance \[N/m, N], given its moments along, then across.
+    fn pull(&self, line: usize, moments: &[f64; SLIPS]) -> f64 {
+        self.pulls[line].iter().zip(moments).map(|(pull, moment)| pull * moment).sum()
+    }
+
+    /// Part of the shear of all lines.
+    pub fn pulls(&self, moments: &[[f64; SLIPS]]) -> f64 {
+        moments.iter().enumerate().map(|(line, moments)| self.pull(line, moments)).sum()
+    }
+}
+
 /// Tangential problems of all lines, the slips of every line by the moments of every other one, and what the balances of
 /// the motions that are free miss [N/m, N].
 pub struct ConeProblems<'a> {
     pub lines: &'a [ConeProblem],
     pub between: &'a [[[f64; SLIPS]; SLIPS]],
+    pub motions: &'a [FreeMotion],
     pub unbalance: &'a [f64],
 }
 
@@ -149,10 +194,10 @@ impl Linearised {
     pub fn new(problems: &ConeProblems, contact: &SeriesContact, verdicts: &[ConeVerdict]) -> Option<Self> {
         let lines: Option<Vec<_>> =
             problems.lines.iter().zip(verdicts).map(|(problem, verdict)| LinearLine::new(problem, verdict)).collect();
-        let (lines, axes) = (lines?, contact.free_axes());
+        let (lines, motions) = (lines?, problems.motions);
         let (count, all) = (lines.len(), SLIPS * lines.len());
         let mut system = DenseSystem::default();
-        system.reset(all + axes.clone().count());
+        system.reset(all + motions.len());
         for at in 0..count {
             for (by, line) in lines.iter().enumerate() {
                 let slips = line.moments.map(|moments| polynomial(&problems.between[count * at + by], &moments));
@@ -164,19 +209,19 @@ impl Linearised {
             for p in 0..SLIPS {
                 system.row(SLIPS * at + p).0[SLIPS * at + p] += 1.0;
             }
-            for (column, axis) in axes.clone().enumerate() {
-                let slips = contact.lines[at].slips_by_motion(axis);
-                (0..SLIPS).for_each(|p| system.row(SLIPS * at + p).0[all + column] = -slips[p]);
+            for (column, motion) in motions.iter().enumerate() {
+                let slips = motion.slips[at].iter().enumerate();
+                slips.for_each(|(p, slip)| system.row(SLIPS * at + p).0[all + column] = -slip);
             }
         }
-        for (i, axis) in axes.clone().enumerate() {
+        for (i, motion) in motions.iter().enumerate() {
             let (row, _) = system.row(all + i);
             for (by, line) in lines.iter().enumerate() {
                 let row = row[SLIPS * by..][..SLIPS].iter_mut();
-                row.zip(&line.moments).for_each(|(value, moments)| *value = contact.pull_of(axis, by, moments));
+                row.zip(&line.moments).for_each(|(value, moments)| *value = motion.pull(by, moments));
             }
-            for (column, other) in axes.clone().enumerate() {
-                row[all + column] = contact.resistance(axis, other);
+            for (column, other) in motions.iter().enumerate() {
+                row[all + column] = contact.resistance(motion.axis, other.axis);
             }
         }
         system.factorise().then_some(Self { lines, system })
@@ -188,12 +233,7 @@ impl Linearised {
     }
 
     /// Changes of the shear of all lines and of the free motions that take away what verdicts and balances miss.
-    pub fn changes(
-        &mut self,
-        problems: &ConeProblems,
-        contact: &SeriesContact,
-        verdicts: &[ConeVerdict],
-    ) -> Option<(Vec<Vectors>, Vec<f64>)> {
+    pub fn changes(&mut self, problems: &ConeProblems, verdicts: &[ConeVerdict]) -> Option<(Vec<Vectors>, Vec<f64>)> {
         let alone = self.lines.iter_mut().zip(problems.lines).zip(verdicts);
         let alone: Option<Vec<_>> = alone.map(|((line, problem), verdict)| line.change(problem, verdict)).collect();
         let (mut changes, count) = (alone?, self.lines.len());
@@ -204,9 +244,8 @@ impl Linearised {
         for (at, slips) in slips.as_chunks_mut::<SLIPS>().0.iter_mut().enumerate() {
             *slips = sum_between(problems.between, at, &moments);
         }
-        for ((balance, axis), missing) in balances.iter_mut().zip(contact.free_axes()).zip(problems.unbalance) {
-            let pulls = moments.iter().enumerate().map(|(line, moments)| contact.pull_of(axis, line, moments));
-            *balance = missing + pulls.sum::<f64>();
+        for ((balance, motion), missing) in balances.iter_mut().zip(problems.motions).zip(problems.unbalance) {
+            *balance = missing + motion.pulls(&moments);
         }
         if !self.system.solve_with(&mut right) {
             return None;
@@ -222,18 +261,27 @@ impl Linearised {
     }
 }
 
-/// Slips of a line by the moments of all lines, as coefficients of polynomials along and across.
-pub fn sum_between(between: &[[[f64; SLIPS]; SLIPS]], at: usize, moments: &[[f64; SLIPS]]) -> [f64; SLIPS] {
-    let mut sum = [0.0; SLIPS];
-    for (between, moments) in between[moments.len() * at..].iter().zip(moments) {
-        sum.iter_mut().zip(polynomial(between, moments)).for_each(|(sum, slip)| *sum += slip);
+vectorised! {
+    /// Slips of a line by the moments of all lines, as coefficients of polynomials along and across.
+    fn sum_between<'a, S>(
+        _simd,
+        between: &'a [[[f64; SLIPS]; SLIPS]],
+        at: usize,
+        moments: &'a [[f64; SLIPS]],
+    ) -> [f64; SLIPS] {
+        let mut sum = [0.0; SLIPS];
+        for (between, moments) in between[moments.len() * at..].iter().zip(moments) {
+            for (slips, moment) in between.iter().zip(moments) {
+                sum.iter_mut().zip(slips).for_each(|(sum, slip)| *sum += moment * slip);
+            }
+        }
+        sum
     }
-    sum
 }
 
 impl SeriesContact<'_> {
     /// Part of a shear of a line in the balance of a motion \[N/m, N], given its moments along, then across.
-    pub fn pull_of(&self, axis: Axis, line: usize, moments: &[f64; SLIPS]) -> f64 {
+    fn pull_of(&self, axis: Axis, line: usize, moments: &[f64; SLIPS]) -> f64 {
         let along: ByPowers = std::array::from_fn(|p| moments[p]);
         self.pull(axis, line, [moments[0], moments[POINTS]], &along)
     }
@@ -247,7 +295,7 @@ impl SeriesContact<'_> {
 
 impl SeriesLine<'_> {
     /// Slip along and across by a unit of a motion, as coefficients of polynomials.
-    pub fn slips_by_motion(&self, axis: Axis) -> [f64; SLIPS] {
+    fn slips_by_motion(&self, axis: Axis) -> [f64; SLIPS] {
         let mut slips = [0.0; SLIPS];
         slips[..POINTS].copy_from_slice(&self.slip_by_motion(axis));
         let spin = self.problem.spin.by(axis);

@@ -2,7 +2,7 @@
 
 use super::across::Vectors;
 use super::cone::{ConeProblem, ConeVerdict, SLIPS};
-use super::cone_linear::{ConeProblems, Linearised, sum_between};
+use super::cone_linear::{ConeProblems, FreeMotion, Linearised, sum_between};
 use super::contact::SeriesContact;
 use super::series_line::SeriesLine;
 use crate::axes::{Axis, PerAxis};
@@ -42,6 +42,7 @@ pub struct Newton<'a> {
     problems: &'a mut [ConeProblem],
     /// Slips of every line by the moments of every other one.
     between: Vec<[[f64; SLIPS]; SLIPS]>,
+    motions: Vec<FreeMotion>,
     /// Motions of the known slip, and what their balances miss without shear [N/m, N].
     base: PerAxis<f64>,
     without: PerAxis<f64>,
@@ -70,6 +71,7 @@ impl<'a> Newton<'a> {
         let mut newton = Self {
             problems,
             between: (0..count * count).map(|k| contact.slips_askew([k / count, k % count])).collect(),
+            motions: FreeMotion::all(contact),
             base,
             without: PerAxis::from_fn(|axis| -contact.unbalance(axis, resultant[axis])),
             friction: contact.sum(|line| line.friction * line.load()).max(f64::MIN_POSITIVE),
@@ -97,24 +99,24 @@ impl<'a> Newton<'a> {
         let moments: Vec<_> = lines.map(|(problem, shear)| problem.moments(shear)).collect();
         let slips = |at: usize| {
             let mut sum = sum_between(&self.between, at, &moments);
-            for axis in contact.free_axes() {
-                let (slips, change) = (contact.lines[at].slips_by_motion(axis), self.rigid[axis] - self.base[axis]);
-                sum.iter_mut().zip(slips).for_each(|(sum, slip)| *sum += change * slip);
+            for FreeMotion { axis, slips, .. } in &self.motions {
+                let change = self.rigid[*axis] - self.base[*axis];
+                sum.iter_mut().zip(&slips[at]).for_each(|(sum, slip)| *sum += change * slip);
             }
             sum
         };
         self.slips = (0..self.problems.len()).map(slips).collect();
         let lines = self.problems.iter().zip(&self.shears).zip(&self.slips);
         self.verdicts = lines.map(|((problem, shear), slips)| problem.verdict(shear, slips)).collect();
-        let balance = |axis| {
-            let pulls = moments.iter().enumerate().map(|(line, moments)| contact.pull_of(axis, line, moments));
+        let balance = |motion: &FreeMotion| {
+            let axis = motion.axis;
             let resisted = contact
                 .free_axes()
                 .map(|other| contact.resistance(axis, other) * (self.rigid[other] - self.base[other]));
             let [resistance, way] = contact.drawn[axis];
-            self.without[axis] + resistance * way + pulls.sum::<f64>() - resisted.sum::<f64>()
+            self.without[axis] + resistance * way + motion.pulls(&moments) - resisted.sum::<f64>()
         };
-        self.unbalance = contact.free_axes().map(balance).collect();
+        self.unbalance = self.motions.iter().map(balance).collect();
     }
 
     /// Largest violation of friction and balances \[1].
@@ -233,13 +235,18 @@ impl<'a> Newton<'a> {
     }
 
     fn problem(&self) -> ConeProblems<'_> {
-        ConeProblems { lines: self.problems, between: &self.between, unbalance: &self.unbalance }
+        ConeProblems {
+            lines: self.problems,
+            between: &self.between,
+            motions: &self.motions,
+            unbalance: &self.unbalance,
+        }
     }
 
     /// One step with the linear law; `None`: there is none.
     fn step(&mut self, contact: &SeriesContact) -> Option<()> {
         let mut linear = self.linear.take()?;
-        let (changes, motions) = linear.changes(&self.problem(), contact, &self.verdicts)?;
+        let (changes, motions) = linear.changes(&self.problem(), &self.verdicts)?;
         self.linear = Some(linear);
         for (shear, change) in self.shears.iter_mut().zip(&changes) {
             let shear = shear.as_flattened_mut().iter_mut();

@@ -11,6 +11,7 @@ use super::contact::SeriesContact;
 use super::places::total;
 use super::points::COUNT;
 use super::series_line::SeriesLine;
+use super::state::Uncorrected;
 use super::stick::{Motions, Settling};
 use crate::axes::PerAxis;
 use crate::contact::error::ContactError;
@@ -20,30 +21,32 @@ const MOST: usize = 40;
 /// Iterations of the normal problem at most between those of the tangential one, which take ten times as long, and the
 /// relative change that ends them \[1].
 const PRESSED: usize = 40;
-const CLOSE: f64 = 1e-10;
-/// Violation of friction that ends Newton's method \[1], and the share of that before which does: far less than what the
-/// change of the pressure with the shear brings back.
-const TOLERANCE: f64 = 1e-12;
+const CLOSE: f64 = 1e-9;
+/// Violation of friction that ends Newton's method \[1], in equilibria, and at most; and the share of that before which does:
+/// about what the change of the pressure with the shear brings back.
+const TOLERANCE: f64 = 1e-9;
+const AT_REST: f64 = 1e-12;
 const ROUGHEST: f64 = 1e-2;
-const SHARE: f64 = 1e-5;
+const SHARE: f64 = 1e-3;
 
 /// Finds tractions and motions of lines that slip along and across.
 pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
     let mut search = ConeSearch::new(contact);
     search.write(contact);
-    let (mut normal, mut settling) = (contact.press_under_shear(PRESSED, CLOSE)?, Settling::by_errors(contact));
+    let (mut normal, mut settling) = (contact.press_under_shear(PRESSED, CLOSE)?, Settling::of_shear(contact));
     let (mut last, mut coefficients) = (None, FrictionSearches::new(contact));
     for _ in 0..coefficients.rounds(MOST) {
         let before = Motions::of(contact);
         let violation = search.advance(contact)?;
-        // The next round changes as much less than this one as this one less than the last.
+        // The next round changes as much less than this one as this one less than the last, and far less than this one.
         let change = violation.max(before.moved(contact));
-        let next = last.map_or(change, |last: f64| change * (change / last).min(1.0));
+        let next = change * last.map_or(SHARE, |last: f64| (change / last).min(SHARE));
         last = Some(change.max(f64::MIN_POSITIVE));
         let error = settling.error(normal, next);
         if settling.is_last(error.max(coefficients.follow(contact, error)?)) {
             contact.find_slips();
             if coefficients.settle(contact)? {
+                search.finish(contact);
                 return Ok(());
             }
         }
@@ -63,6 +66,8 @@ struct ConeSearch {
     most: Vec<f64>,
     /// True until a first correction has been found.
     first: bool,
+    /// Violation of friction that ends Newton's method \[1].
+    tolerance: f64,
     /// Linear laws of both searches.
     linear: [Option<Linearised>; 2],
 }
@@ -75,14 +80,20 @@ impl ConeSearch {
             None => [[0.0; COUNT]; 2],
         };
         let shears: Vec<_> = contact.lines.iter().map(shear).collect();
+        let uncorrected = |(shear, line): (&Vectors, &SeriesLine)| {
+            let further = &line.across.uncorrected.shear;
+            std::array::from_fn(|c| std::array::from_fn(|i| shear[c][i] + further[c][i]))
+        };
+        let uncorrected = shears.iter().zip(&contact.lines).map(uncorrected).collect();
         let most = contact.lines.iter().map(|line| line.before_friction * line.tractions.pressure.terms[0]);
         Self {
-            uncorrected: shears.clone(),
-            uncorrected_motion: PerAxis::default(),
+            uncorrected,
+            uncorrected_motion: contact.lines[0].across.uncorrected.motion,
             shears,
             states: vec![[0; COUNT]; contact.lines.len()],
             most: most.collect(),
             first: true,
+            tolerance: if contact.lines[0].problem.line.time.is_stationary() { AT_REST } else { TOLERANCE },
             linear: [None, None],
         }
     }
@@ -112,12 +123,10 @@ impl ConeSearch {
         let [without, with] = &mut self.linear;
         newton.linear = without.take();
         let mut violation = newton.largest(contact);
-        newton.run(contact, (SHARE * violation).clamp(TOLERANCE, ROUGHEST))?;
+        newton.run(contact, (SHARE * violation).clamp(self.tolerance, ROUGHEST))?;
         // A first law with the correction: that without it may lead on.
-        without.clone_from(&newton.linear);
-        if let Some(with) = with.take() {
-            newton.linear = Some(with);
-        }
+        *without = newton.linear.take();
+        newton.linear = with.take().or_else(|| without.clone());
         self.uncorrected.clone_from(&newton.shears);
         let motion = newton.rigid;
         newton.correct(contact);
@@ -129,15 +138,24 @@ impl ConeSearch {
         }
         let further = newton.largest(contact);
         violation = violation.max(further);
-        newton.run(contact, (SHARE * further).clamp(TOLERANCE, ROUGHEST))?;
+        newton.run(contact, (SHARE * further).clamp(self.tolerance, ROUGHEST))?;
         *with = newton.linear.take();
         self.uncorrected_motion = PerAxis::from_fn(|axis| motion[axis] - newton.rigid[axis]);
-        self.shears = newton.shears;
         self.states = newton.verdicts.iter().map(ConeVerdict::states).collect();
-        let rigid = newton.rigid;
+        let (shears, rigid) = (newton.shears, newton.rigid);
+        // No shear leaves its disc, whatever the tolerance.
+        self.shears = shears.iter().zip(&problems).map(|(shear, problem)| problem.within(shear, 1.0)).collect();
         contact.lines.iter_mut().for_each(|line| line.rigid = rigid);
         self.write(contact);
         Ok(violation)
+    }
+
+    /// Leaves the solution without the correction to the next step.
+    fn finish(&self, contact: &mut SeriesContact) {
+        for ((line, shear), uncorrected) in contact.lines.iter_mut().zip(&self.shears).zip(&self.uncorrected) {
+            let further = std::array::from_fn(|c| std::array::from_fn(|i| uncorrected[c][i] - shear[c][i]));
+            line.across.uncorrected = Uncorrected { shear: further, motion: self.uncorrected_motion };
+        }
     }
 }
 

@@ -125,7 +125,7 @@ fn remember(
         }
     }
     state.past[0] = now;
-    (state.slope, state.law_slope) = (line.slope, line.law_slope);
+    (state.slope, state.law_slope, state.uncorrected) = (line.slope, line.law_slope, line.across.uncorrected);
     if !line.is_sideways() {
         return history.friction.advance(time, slope_power(line), |q| [force[q], line.slips[q]]);
     }
@@ -201,14 +201,16 @@ fn write_lateral_profiles(line: &SeriesLine, traction: &mut Traction) {
     let Traction { lateral_shear, lateral_slip, shear, slip, friction: SolvedFriction { dissipation, .. }, .. } =
         traction;
     [&mut *lateral_shear, lateral_slip].into_iter().for_each(Piecewise::clear);
-    if !line.is_sideways() {
+    if !line.is_sideways() || shear.x.is_empty() {
         return;
     }
-    let last = shear.x.len().saturating_sub(1);
+    let last = shear.x.len() - 1;
+    // All of the patch is one stretch, and nothing is where it ends.
+    let places: [f64; PROFILE - 1] = std::array::from_fn(|i| shear.x[(i + 1).min(last)]);
+    let (shears, slips) = (line.tractions.lateral.density(&places), line.lateral_slip(&places, true));
     for (i, &x) in shear.x.iter().enumerate() {
-        let ([q], [s]) = (line.tractions.lateral.density(&[x]), line.lateral_slip(&[x], true));
         let ends = i == 0 || i == last;
-        let (q, s) = if ends { (0.0, 0.0) } else { (q, s) };
+        let (q, s) = if ends { (0.0, 0.0) } else { (shears[i - 1], slips[i - 1]) };
         let sticks = line.sticks_at(x);
         lateral_shear.push(x, q);
         lateral_slip.push(x, if sticks { 0.0 } else { s });

@@ -4,7 +4,7 @@ use super::chebyshev::Arch;
 use super::constants::Constants;
 use super::hot_layers::{self, SeriesLayers};
 use super::places::{AtPlaces, Places, lifts, place, total, turns};
-use super::state::{SeriesState, Tractions};
+use super::state::{SeriesState, Tractions, Uncorrected};
 use super::surface::{AtPoints, Moments, SmoothSurfaces, plus};
 use super::tables::{POWER, QUADRATURE};
 use crate::axes::PerAxis;
@@ -37,6 +37,8 @@ pub struct Across {
     pub powers: ByPowers,
     /// Displacement and strain across by the lines of the patch under their present shear.
     pub field: Field,
+    /// See [`SeriesState::uncorrected`].
+    pub uncorrected: Uncorrected,
     /// Slip across at the places of [`SeriesLine::slips`] [m/s], once the solution has been checked.
     pub slips: [f64; POWER],
 }
@@ -120,7 +122,7 @@ impl<'a> SeriesLine<'a> {
             half_length: problem.line.patch.map_or(before.tractions.pressure.half_width, |patch| patch.half_length),
             powers: Default::default(),
             field: Field::default(),
-            across: Across::default(),
+            across: Across { uncorrected: before.uncorrected, ..Across::default() },
             slips: [0.0; POWER],
         }
     }

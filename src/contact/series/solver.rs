@@ -211,6 +211,7 @@ impl ContactSolver for SeriesSolver {
             && arches.iter().all(|arch| arch.is_sound())
             && series.past.iter().all(Past::is_sound)
             && series.kernel.is_sound()
+            && series.uncorrected.is_sound()
             && (state.history.friction.fits(POWER) || state.history.friction.fits(2 * POWER))
             && vectors.into_iter().all(|values| values.len() == 2 * POINTS)
             && traction.port_forces.iter().all(|f| f.is_finite())

@@ -1,7 +1,8 @@
 //! State of a line as series: its tractions, and the displacements that the slip of the next step refers to.
 
 use super::chebyshev::{Arch, logarithm_of_both};
-use super::points::Directions;
+use super::points::{COUNT, Directions};
+use crate::axes::PerAxis;
 use crate::contact::flexibility::{ByPowers, at, powers, values};
 use crate::contact::kernel::{LineKernel, Logarithm};
 use crate::linalg::{Lagrange, POINTS};
@@ -112,6 +113,24 @@ pub struct SeriesState {
     pub slope: f64,
     /// How the excess of friction over its law depends on the coefficient \[1]; where the search of the next step starts.
     pub law_slope: f64,
+    /// Solution without the correction of the slips less that with it.
+    pub uncorrected: Uncorrected,
+}
+
+/// Shear and motions along and across without the correction of the slips ([`super::cone`]) less those with it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Uncorrected {
+    /// Shear at the points \[Pa].
+    pub shear: [[f64; COUNT]; 2],
+    /// Motions, which all lines have in common [m/s, m, rad/s].
+    pub motion: PerAxis<f64>,
+}
+
+impl Uncorrected {
+    /// True if all numbers are finite.
+    pub fn is_sound(&self) -> bool {
+        self.shear.as_flattened().iter().all(|q| q.is_finite()) && self.motion.iter().all(|(_, rate)| rate.is_finite())
+    }
 }
 
 impl Default for Past {

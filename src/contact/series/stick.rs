@@ -35,9 +35,10 @@ const BELIEVED: std::ops::Range<f64> = 0.2..5.0;
 /// and shears pressures, one pass behind.
 const BEHIND: f64 = 0.03;
 
-/// Largest relative error that a solution on arches leaves, and largest change that ends other searches \[1]: friction forces
+/// Largest relative error that a solution on arches leaves, that of one with two directions, and the largest change that ends other searches \[1]: friction forces
 /// are off by about twice as much. In equilibria, which others improve from solution to solution, it is smaller.
 const LEFT_OVER: f64 = 1e-10;
+const LEFT_OF_SHEAR: f64 = 1e-8;
 const TOLERANCE: f64 = 2e-11;
 const AT_REST: f64 = 1e-12;
 /// Largest change that ends it where rounding allows no more.
@@ -108,6 +109,11 @@ impl Settling {
     /// An end by the errors that iterations leave.
     pub fn by_errors(contact: &SeriesContact) -> Self {
         Self::within(LEFT_OVER, BEHIND, contact)
+    }
+
+    /// An end by the errors that iterations with two directions of shear leave.
+    pub fn of_shear(contact: &SeriesContact) -> Self {
+        Self::within(LEFT_OF_SHEAR, BEHIND, contact)
     }
 
     fn within(tolerance: f64, pressed: f64, contact: &SeriesContact) -> Self {
