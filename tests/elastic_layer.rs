@@ -125,7 +125,7 @@ fn slopes_of_bodies_and_layer_add_up_as_springs_in_a_row() {
     assert!((found / springs - 1.0).abs() < 0.15 && found < 0.4 * bodies);
 }
 
-/// What an observer outside misses of the energy over a run: work of the hub less friction, stored and kinetic energy.
+/// Energy that an observer outside misses over a run: work of the hub less friction, stored and kinetic energy.
 fn missed(model: &Arc<Model>, step: f64, count: usize, change: impl Fn(&mut Inputs, f64)) -> (f64, Vec<Outputs>) {
     let seen = run(model, Inputs::rolling(model.config()), (step, count), change);
     (seen.iter().map(|outputs| outputs.energy_residual.abs()).fold(0.0, f64::max), seen)

@@ -95,14 +95,14 @@ fn expansion(line: &SeriesLine) -> f64 {
     along + lift
 }
 
-/// Slips along and across [m/s] that do the work of friction on the forces at the places.
+/// Slips along and across [m/s] of a line with forces across that do the work of friction on the forces at the places.
 ///
 /// That a layer is carried through the patch does no work by the integral, but by the sum over the places, which misses the
 /// end of a layer where its slip has a root in the denominator. What points that stick seem to slip, and what is missed, belong to those
 /// that slip, or to the last one.
-fn slips_of(line: &SeriesLine, forces: [&[f64; POWER]; 2]) -> [[f64; POWER]; 2] {
+fn layered_slips(line: &SeriesLine, forces: [&[f64; POWER]; 2]) -> [[f64; POWER]; 2] {
     let mut slips = [line.slips, line.across.slips];
-    if line.problem.line.layer == 0.0 || line.tractions.directions.is_none() {
+    if line.problem.line.layer == 0.0 {
         return slips;
     }
     let work = |slips: &[[f64; POWER]; 2]| -> f64 {
@@ -164,11 +164,10 @@ fn remember(
     state.past[0] = now;
     state.slope = line.slope;
     if !line.is_sideways() {
-        let [slips, _] = slips_of(line, [force, &[0.0; POWER]]);
-        return history.friction.advance(time, slope_power(line), |q| [force[q], slips[q]]);
+        return history.friction.advance(time, slope_power(line), |q| [force[q], line.slips[q]]);
     }
     let (_, across) = line.slipping_across();
-    let slips = slips_of(line, [force, &across]);
+    let slips = layered_slips(line, [force, &across]);
     history.friction.reach(2 * POWER);
     history.friction.advance(time, slope_power(line), |q| match q.checked_sub(POWER) {
         None => [force[q], slips[0][q]],

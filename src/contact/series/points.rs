@@ -250,7 +250,7 @@ mod tests {
         of_bodies([1.0, 0.0], creepage)
     }
 
-    /// The same of half-planes and a layer with parts of their flexibilities, `1` and `2L/κπa`.
+    /// Shear as of [`steady`] of half-planes and a layer with parts of their flexibilities, `1` and `2L/κπa`.
     fn of_bodies([half_planes, layer]: [f64; 2], creepage: f64) -> ([f64; COUNT], usize) {
         let tables = PointTables::new();
         let mut by_shear = tables.slips_by_shear([half_planes, 0.0], [1.0, 0.0]);
