@@ -3,23 +3,25 @@
 import ctypes
 import struct
 from pathlib import Path
+from weakref import finalize
 
 
 class Library:
-    """The bench of a shared library. It has one run at a time; errors of its functions raise `ValueError`."""
+    """A bench of a shared library. It has one run at a time; errors of its functions raise `ValueError`."""
 
     def __init__(self, path):
         self.functions = ctypes.CDLL(str(Path(path).resolve()))
-        for name in ("input", "output"):
+        for name in ("new", "input", "output"):
             getattr(self.functions, f"bench_{name}").restype = ctypes.c_void_p
-        self.functions.bench_input.argtypes = [ctypes.c_size_t]
         self.functions.bench_output_length.restype = ctypes.c_size_t
+        self.bench = ctypes.c_void_p(self.functions.bench_new())
+        finalize(self, self.functions.bench_free, self.bench)
 
     def call(self, name, given=b"", *others):
         """Calls `bench_NAME` with bytes; returns those that come out."""
-        ctypes.memmove(self.functions.bench_input(len(given)), given, len(given))
-        failed = getattr(self.functions, f"bench_{name}")(*others)
-        out = ctypes.string_at(self.functions.bench_output(), self.functions.bench_output_length())
+        ctypes.memmove(self.functions.bench_input(self.bench, ctypes.c_size_t(len(given))), given, len(given))
+        failed = getattr(self.functions, f"bench_{name}")(self.bench, *others)
+        out = ctypes.string_at(self.functions.bench_output(self.bench), self.functions.bench_output_length(self.bench))
         if failed:
             raise ValueError(out.decode("utf-8"))
         return out

@@ -4,7 +4,7 @@
 
 Each case says where its numbers are from, what was fitted to them and what is predicted:
 
-1. Creep curve of a locomotive to 21 % of creep (example 8): the law of friction was fitted to it by others.
+1. Creep curve of a locomotive to 21 % of creep (example 8): the law of friction and the elastic layer were fitted to it by others.
 2. Contact temperature of a sliding ellipse of pressure, closed solution for the case of Ertz and Knothe: predicted.
 3. Skidding wheels, Galton 1878: friction falls with the speed because the contact is hot; predicted with the default softening,
    which was chosen for other reasons. His numbers are from memory.
@@ -21,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ex08_creep_curve import CREEPS, FITTED, adhesion, judged
+from ex08_creep_curve import CREEPS, FITTED, LAYER, adhesion, judged
 from wheelrail import Fmu, Refused, Wheel, steady
 from wheelrail.output import write_rows
 from wheelrail.plots import COLOURS, pyplot, save
@@ -39,13 +39,15 @@ DRAG = (45e3, 70.0 * KMH, 2040.0, (250.0, 450.0))
 
 
 def locomotive(fmu, brief):
-    """Case 1: rows of creep, measured range and computed adhesion, and whether all from the fit on lie inside."""
-    curve = [(creep, adhesion(fmu, creep)) for creep in (CREEPS[::3] if brief else CREEPS)]
-    rows, fine = [], True
-    for (low, high, least, most), points, inside in judged(curve):
-        rows += [("creep curve of a locomotive", f"{creep:g} % of creep", f"{least:g} to {most:g}", f"{value:.3f}") for creep, value in points]
-        fine &= inside or low < FITTED
-    return rows, fine, curve
+    """Case 1: rows of creep, measured range and computed adhesion with the layer and of clean steel, and whether all of the former
+    and those of the latter from the fit on lie inside."""
+    creeps, rows, fine = CREEPS[::3] if brief else CREEPS, [], True
+    layered, clean = ([(creep, adhesion(fmu, creep, layer)) for creep in creeps] for layer in (LAYER, 0.0))
+    for ((low, _, least, most), points, inside), (_, others, clean_inside) in zip(judged(layered), judged(clean)):
+        for (creep, value), (_, other) in zip(points, others):
+            rows.append(("creep curve of a locomotive", f"{creep:g} % of creep", f"{least:g} to {most:g}", f"{value:.3f}; clean {other:.3f}"))
+        fine &= inside and (clean_inside or low < FITTED)
+    return rows, fine, layered
 
 
 def flash(fmu):

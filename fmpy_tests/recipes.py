@@ -42,7 +42,9 @@ CHECKOUT = (
     Recipe(
         'make flat ARGS="--once --slide 0.1 --roll 0.2" OUT={out}', ("make flat", 'make flat ARGS="--once --slide 0.1 --roll 0.2"'), "written"
     ),
-    short("eight-wheels", "--seconds 0.1 --drives held", "threads"),
+    Recipe(
+        'make eight-wheels ARGS="--seconds 0.1 --drives held"', ("make eight-wheels", 'make eight-wheels ARGS="--seconds 5"'), "threads",
+    ),
     Recipe(
         'make eight-wheels ARGS="--seconds 0.1 --drives slide --set preset=railway_ellipse"',
         ('make eight-wheels ARGS="--set preset=railway_ellipse"',), "threads",

@@ -1,6 +1,7 @@
 """The bench: its program of Python repeats its run on the FMU, and its page in a browser computes what the library does.
 
-The page is tried where it has been made (`make bench-page`) and a browser is. From a file, without network.
+The page is tried where it has been made (`make bench-page`) and a browser is. From a file, without network. Where node is, its core
+and worker are tried without a browser.
 """
 
 import contextlib
@@ -8,6 +9,7 @@ import csv
 import io
 import math
 import shutil
+import subprocess
 import sys
 from pathlib import Path
 from urllib.parse import urldefrag
@@ -22,9 +24,12 @@ START = "patch={}&rail=wet&speed=80&load=90&torque=3"
 BRAKED = f"{START}&at=20:rail=leaves&at=40:load=110&at=60:torque=5&at=130:torque=2&at=150:hold&at=180:rail=dry"
 LOCKED = f"{START}&at=20:rail=leaves&at=40:lock&at=120:torque=1&at=120:release&at=140:load=80&at=150:hold"
 STEPS = 260
+NODE = shutil.which("node")
 # Relative difference of a value to the largest of its column, by rounding: of a wheel that rolls, and of one that has been
 # locked, whose steel yields and melts.
 SAME, SAME_LOCKED = 1e-9, 1e-8
+# Of the residual of the energy: what is left of works that cancel, over the energy that is stored, which is a thousandth of them.
+SAME_RESIDUAL = 1e-7
 
 sys.path.insert(0, str(ROOT / "bench"))
 from library import Library  # noqa: E402
@@ -130,6 +135,30 @@ def test_the_page_is_made_of_the_source_that_lies_here(browser):
         assert (PAGE.parent / name).read_text() == (ROOT / "bench" / "page" / name).read_text(), f"`make bench-page`: {name} is older"
 
 
+def compared(patch, run, text, found):
+    """Tables of the library and of the core as WebAssembly are equal but for rounding."""
+    worst, column = difference(without_residuals(table(text)), without_residuals(table(found)))
+    residuals = zip(table(text)["solver.energy_residual"], table(found)["solver.energy_residual"])
+    residual = max(abs(a - b) for a, b in residuals)
+    print(f"{patch}: {worst:.1e} of {column}, residual {residual:.1e}")
+    assert worst < (SAME_LOCKED if run == LOCKED else SAME)
+    assert residual < SAME_RESIDUAL
+
+
+@pytest.mark.skipif(NODE is None, reason="node is not installed")
+@pytest.mark.skipif(not PAGE.is_file(), reason="the page has not been made: `make bench-page`, which needs a compiler for WebAssembly")
+@pytest.mark.parametrize(
+    ("patch", "run"),
+    [("line", LOCKED), ("s1002", BRAKED), ("ellipse", f"{BRAKED}&angle=4")],
+    ids=["line-locked", "s1002", "turned"],
+)
+def test_the_core_without_a_browser_computes_what_the_library_does(library, patch, run):
+    link = run.format(patch)
+    ran = subprocess.run([NODE, ROOT / "bench" / "run.mjs", PAGE.parent, link, str(STEPS)], capture_output=True, text=True)
+    assert ran.returncode == 0, ran.stderr
+    compared(patch, run, native(library, link)[0], ran.stdout)
+
+
 @pytest.mark.parametrize(
     ("patch", "run"),
     [*((patch, run) for patch in ("line", "ellipse", "s1002") for run in (BRAKED, LOCKED)), ("ellipse", f"{BRAKED}&angle=4")],
@@ -143,12 +172,7 @@ def test_the_browser_computes_what_the_library_does(library, tab, patch, run):
         done = tab.evaluate("bench.core.ask('advance', {steps: 20, budget: 1e9}).then(({done, error}) => [done, error])")
         assert done == [20, None]
     text, program = native(library, link)
-    found = tab.evaluate("bench.text('csv')")
-    worst, column = difference(without_residuals(table(text)), without_residuals(table(found)))
-    print(f"{patch}: {worst:.1e} of {column}")
-    assert worst < (SAME_LOCKED if run == LOCKED else SAME)
-    residual = max(abs(a - b) for a, b in zip(table(text)["solver.energy_residual"], table(found)["solver.energy_residual"]))
-    assert residual < SAME_LOCKED
+    compared(patch, run, text, tab.evaluate("bench.text('csv')"))
     assert sorted(tab.evaluate("bench.text('link')").split("&")) == sorted(link.split("&"))
     assert len(tab.evaluate("bench.text('python')").splitlines()) == len(program.splitlines())
 

@@ -2,7 +2,8 @@
 // it works from a file, too.
 "use strict";
 
-let core = null;
+let core = null,
+  bench = 0; // address of its state
 
 async function unpacked(base64) {
   const packed = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
@@ -10,8 +11,8 @@ async function unpacked(base64) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-function output(address, length) {
-  return new Uint8Array(core.memory.buffer, address(), length()).slice();
+function output() {
+  return new Uint8Array(core.memory.buffer, core.bench_output(bench), core.bench_output_length(bench)).slice();
 }
 
 const text = (bytes) => new TextDecoder().decode(bytes);
@@ -19,16 +20,17 @@ const text = (bytes) => new TextDecoder().decode(bytes);
 // Calls a function of the core with bytes as input.
 function call(name, input = new Uint8Array(), ...others) {
   const bytes = typeof input === "string" ? new TextEncoder().encode(input) : input;
-  const address = core.bench_input(bytes.length);
+  const address = core.bench_input(bench, bytes.length);
   new Uint8Array(core.memory.buffer, address, bytes.length).set(bytes);
   let failed;
   try {
-    failed = core[name](...others);
+    failed = core[name](bench, ...others);
   } catch (error) {
-    const where = text(output(core.bench_failure, core.bench_failure_length));
+    core.bench_failure(bench);
+    const where = text(output());
     throw new Error(`the core gave up (${where || error.message}); load the page anew`);
   }
-  const found = output(core.bench_output, core.bench_output_length);
+  const found = output();
   if (failed) throw new Error(text(found));
   return found;
 }
@@ -41,7 +43,8 @@ const ANSWERS = {
   async load({ wasm }) {
     const { instance } = await WebAssembly.instantiate(await unpacked(wasm), {});
     core = instance.exports;
-    core.bench_explain_failures();
+    bench = core.bench_new();
+    core.bench_explain_failures(bench);
     return {};
   },
   async hold({ basis }) {

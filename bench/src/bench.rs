@@ -1,4 +1,4 @@
-//! The bench: at most one run, the bases of runs to come, and what goes in and comes out.
+//! The bench: at most one run, the bases of runs to come, and what goes in.
 
 use crate::frame::{self, Window};
 use crate::run::Run;
@@ -22,23 +22,15 @@ const NO_RUN: &str = "no run has been started";
 pub struct Bench {
     /// Bytes that go in with the next call.
     pub input: Vec<u8>,
-    /// Bytes that came out of the last one.
-    pub output: Vec<u8>,
     store: BasisStore,
     run: Option<Run>,
     window: Window,
 }
 
 impl Bench {
-    /// Without a run.
-    pub const fn new() -> Self {
-        let window = Window { x: 0.0, z: [0.0; 2] };
-        Self { input: Vec::new(), output: Vec::new(), store: BasisStore::none(), run: None, window }
-    }
-
     /// Bench with the bases of a store.
     pub fn with_store(store: BasisStore) -> Self {
-        Self { store, ..Self::new() }
+        Self { store, ..Self::default() }
     }
 
     /// A call with a text as input.

@@ -233,7 +233,7 @@ fn a_start_takes_the_basis_that_was_handed_over() {
     let config = Settings::default().config().unwrap();
     let model = Model::prepare(config, &BasisStore::of_user(), &mut |_, _| {}).unwrap();
     let (name, bytes) = model.basis_file().unwrap();
-    let mut bench = Bench::new();
+    let mut bench = Bench::default();
     bench.input = bytes;
     assert_eq!(bench.hold_basis(), Ok(Reply::Text(name.clone())));
     assert_eq!(bench.with("", |bench| bench.basis_name()), Ok(Reply::Text(name)));

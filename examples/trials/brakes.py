@@ -78,6 +78,17 @@ def patches(out):
     return f"{1e-3 * seen.load:.0f} kN on an axle, contact of {seen.hottest - 273.15:.0f} °C"
 
 
+@trial.step("an axle whose wheels differ, on rails that differ, in the FMU", "both wheels alike")
+def different(out):
+    loaded = scenario.load(FILE, {"speed": 5.0, "step": 0.01, "right_wheel.preset": "railway_ellipse", "right_friction": 0.2})
+    with Fmu() as fmu, contextlib.closing(Stop(loaded, fmu)) as run:
+        for _ in range(10):
+            run.step(0.01)
+        left, right = (side.wheel.get("wheel.omega") for side in run.contacts.wheelsets[0].sides)
+    assert abs(left - right) < 1e-4 * left
+    return f"both wheels turn with {left:.3f} rad/s"
+
+
 @trial.step("a page of stops to send around", "none")
 def sent(out):
     page.of_stops(out / "stops.html", {"mine": (kept["mine"], kept["rail"])}, "my stop")

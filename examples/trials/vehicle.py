@@ -42,6 +42,14 @@ def curve(out):
     return f"{float(found['contact.utilisation'][1]):.2f} of the limit at 0.1 %"
 
 
+@trial.step("the same on a rail that is not clean", "no layer between wheel and rail")
+def dirty(out):
+    clean, dirty = (steady(COARSE | {"contact.layer_flexibility": layer}, creepage=[0.0, 1e-3]) for layer in (0.0, 1.5e-13))
+    share = float(dirty["contact.force_x"][-1] / clean["contact.force_x"][-1])
+    assert 0.2 < share < 0.5
+    return f"{share:.2f} of the force at 0.1 %"
+
+
 @trial.step("a misspelt name", "IndexError or no word")
 def misspelt(out):
     with Fmu() as fmu, Wheel(fmu, COARSE) as wheel:

@@ -94,6 +94,9 @@ parameters! {
             1203 basic lateral: bool = false,
                 "Whether the contact has lateral creepage, spin, lateral force and spin moment, with contact.shape = ellipse or rows; \
                  without it drive.lateral_velocity, drive.lateral_force, drive.spin and drive.contact_angle are refused";
+            1212 expert layer_flexibility: f64 = 0.0, in "m/Pa" as "um/MPa", from 0.0 to 1e-9,
+                "Flexibility of an elastic layer of dirt, oxide or leaves between wheel and rail along the surfaces: thickness over \
+                 shear modulus; it lowers the slope of the creep curve. 0: the surfaces touch";
             1198 expert wheel_lateral_radius: f64 = 0.0, in "m" as "mm", from -100.0 to 100.0,
                 "Radius of curvature of the tread across the direction of rolling, positive where it is convex, negative \
                  where it is hollow; 0: straight, as a cone is";

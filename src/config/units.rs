@@ -109,5 +109,11 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "N.m/s", quantity: "MomentRate", exponents: [1, 2, -3, 0, 0], displays: &[] },
     Unit { name: "W/s", quantity: "PowerRate", exponents: [1, 2, -4, 0, 0], displays: &[] },
     Unit { name: "1/s", quantity: "Rate", exponents: [0, 0, -1, 0, 0], displays: &[] },
+    Unit {
+        name: "m/Pa",
+        quantity: "LayerFlexibility",
+        exponents: [-1, 2, 2, 0, 0],
+        displays: &[times("um/MPa", 1e12)],
+    },
     Unit { name: "s/m", quantity: "ChangePerVelocity", exponents: [0, -1, 1, 0, 0], displays: &[] },
 ];

@@ -168,6 +168,8 @@ pub struct LineProblem<'a> {
     pub position: f64,
     /// Flexibility that it has for itself.
     pub kernel: LineKernel,
+    /// Flexibility of an elastic layer between the surfaces along them: displacement over shear [m/Pa]; 0: there is none.
+    pub layer: f64,
     /// Patch whose other lines displace it, too; `None`: it is alone but for the bodies.
     pub patch: Option<InPatch<'a>>,
     /// Linear answer of the bodies.

@@ -37,6 +37,8 @@ pub struct ContactModel {
     nominal_half_width: f64,
     /// Width of the line contact [m].
     width: f64,
+    /// Flexibility of the layer between the surfaces [m/Pa].
+    layer: f64,
     /// Pressure at which cold steel yields [Pa]; infinite: never.
     yield_pressure: f64,
     /// Yield strength of cold steel in shear \[Pa].
@@ -89,6 +91,7 @@ impl ContactModel {
             nominal_load: config.model.nominal_load,
             nominal_half_width: mechanics::nominal_half_width(config),
             width: config.width(),
+            layer: config.contact.layer_flexibility,
             yield_pressure: match config.yields() {
                 true => INDENTATION * config.material.yield_strength,
                 false => f64::INFINITY,
@@ -227,6 +230,7 @@ impl ContactModel {
             share: layout.share,
             position: layout.position,
             kernel: layout.kernel,
+            layer: self.layer,
             patch: self.patch.flexibility().map(|flexibility| InPatch {
                 flexibility,
                 line: number,

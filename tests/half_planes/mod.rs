@@ -36,6 +36,8 @@ pub struct HalfPlanes {
     /// Displacement of the surfaces of wheel and rail without forces [m].
     pub free: [DVector<f64>; 2],
     none: [DMatrix<f64>; 3],
+    /// Flexibility of the layer between the surfaces [m/Pa].
+    pub layer: f64,
 }
 
 pub fn modulus() -> f64 {
@@ -75,7 +77,7 @@ impl HalfPlanes {
         let solver = ActiveSetSolver::new(grid.clone());
         let none = [DMatrix::zeros(n, AXES), DMatrix::zeros(AXES, n), DMatrix::zeros(AXES, AXES)];
         let (relative, free) = (2.0 * &half, [DVector::zeros(n), DVector::zeros(n)]);
-        Self { grid, surfaces: Surfaces::smooth(RADIUS), solver, half, relative, free, none }
+        Self { grid, surfaces: Surfaces::smooth(RADIUS), solver, half, relative, free, none, layer: 0.0 }
     }
 
     /// Turns the rim by an angle about the wheel centre [rad], positive where the tread moves towards `+x`.
@@ -154,6 +156,7 @@ impl HalfPlanes {
                 share: line.share,
                 position: 0.0,
                 kernel: kernel(alone.map_or(1.0, |(_, length)| length)),
+                layer: self.layer,
                 bodies: SurfaceResponse {
                     shared,
                     alone: alone.map(|(logarithms, _)| logarithms),

@@ -101,6 +101,7 @@ impl RigidBodies {
             share: layout.share,
             position: layout.position,
             kernel: layout.kernel,
+            layer: 0.0,
             patch: flexibility.map(|flexibility| InPatch { flexibility, line, half_length: layout.half_length }),
             bodies: self.response(logarithms),
             membrane: [&flat, &flat],

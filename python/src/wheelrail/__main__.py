@@ -136,6 +136,9 @@ def wheels(options, scenario):
     """Words on what rolls."""
     if options.rigid:
         return "rigid, with a creep law"
+    if scenarios.of_two_kinds(scenario):
+        differs = ", ".join(f"{name} = {value}" for name, value in scenario.right_wheel.items()) or "is equal"
+        return f"two wheels with patches of their own; the right one: {differs}, friction of its rail {scenario.right_friction:g} times the left one's"
     with Fmu(options.fmu) as fmu:
         return patches_of(fmu, scenario.vehicle.wheelset, scenario.wheel, scenario.temperatures)
 

@@ -18,6 +18,7 @@ from fmpy.model_description import ScalarVariable
 
 from . import output
 from .instances import BUFFERS
+from .opened import Instance
 from .origin import settings
 from .values import Refused, kind, short
 
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from .fmu import Wheel
 
 Record = TypeVar("Record")  # a Dataset or a DataArray
 
@@ -55,7 +55,7 @@ class Recorder:
 
     def __init__(
         self,
-        wheel: Wheel,
+        wheel: Instance,
         outputs: str | Iterable[str] | None = None,
         profiles: bool | str | Iterable[str] = False,
         depth: bool | str | Iterable[str] = False,

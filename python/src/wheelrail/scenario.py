@@ -235,17 +235,27 @@ def check(scenario):
     for coach in scenario.fmu_coaches:
         if coach > scenario.coaches:
             raise BadFile(f"{path}: fmu_coaches entry = {coach} is outside 1 to {scenario.coaches}, the number of coaches")
+    if scenario.temperatures and of_two_kinds(scenario):
+        raise BadFile(f"{path}: temperatures are of a wheel beside two equal ones; with right_wheel or right_friction each wheel has its own")
     for owner, key in ((scenario.brake, "protection"), (scenario.brake, "sanding"), (scenario, "driver")):
         if getattr(owner, f"{key}_parameters") and not getattr(owner, key):
             file = scenario.paths["scenario" if owner is scenario else "brake"]
             raise BadFile(f"{file}: {key}_parameters are given, but no {key}: module:Class")
 
 
+def of_two_kinds(scenario):
+    """Whether the wheels of an axle, or their rails, differ."""
+    return bool(scenario.right_wheel) or scenario.right_friction != 1.0
+
+
 def check_wheel(scenario, known):
     """The parameters of the wheels, those that are swept too, are among those that are `known`, variables by name, and have values of
     their types."""
-    swept = [(key.removeprefix("wheel."), value) for key, values in vars(scenario.sweep).items() if key.startswith("wheel.") for value in values]
-    given = [*scenario.wheel.items(), *scenario.temperatures.items(), *scenario.sweep.wheel.items(), *swept]
+    given = [*scenario.sweep.wheel.items()]
+    for part in ("wheel", "right_wheel", "temperatures"):
+        swept = ((key, values) for key, values in vars(scenario.sweep).items() if key.startswith(f"{part}."))
+        given += getattr(scenario, part).items()
+        given += [(key.removeprefix(f"{part}."), value) for key, values in swept for value in values]
     for name, value in given:
         if name not in known:
             close = difflib.get_close_matches(name, known, n=1)

@@ -22,7 +22,8 @@ from .fmu import instance
 from .output import fresh
 from .output import write as write_file
 from .parallel import friction
-from .values import kind
+from .scenario import of_two_kinds
+from .values import Refused, kind
 from .vehicle import AXLES, Coach
 from .wheelset import whole_wheelset
 
@@ -71,6 +72,8 @@ def _flat(group, prefix=""):
 
 def wheelset_values(scenario, fmu):
     """Parameters and constant inputs of a wheelset in the wheel's FMU."""
+    if of_two_kinds(scenario):
+        raise Refused("right_wheel, right_friction: a wheelset of a package is one FMU, and both its wheels are equal")
     values = whole_wheelset(fmu, scenario.vehicle.wheelset, dict(scenario.wheel))
     load, damping = Coach(scenario.vehicle).static_load, scenario.vehicle.primary.vertical_damping
     values |= {"initial.velocity": scenario.speed, "vehicle.mass": 0.0, "vehicle.damping": damping}

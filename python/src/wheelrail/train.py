@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import scenario as scenarios
+from .axle import TwoWheels
 from .brake import Brakes
 from .controllers import OwnDriver
 from .fmu import Fmu
@@ -84,7 +85,7 @@ class Contacts:
 
     def __init__(
         self,
-        wheelsets: Sequence[FmuWheelset | RigidWheelset],
+        wheelsets: Sequence[FmuWheelset | TwoWheels | RigidWheelset],
         positions: ArrayLike,
         rail: RailMap,
         track: SimpleNamespace,
@@ -97,7 +98,7 @@ class Contacts:
         self.told = []  # warnings that have not been said: axle, from 0, and text
         # The FMU works outside of Python's lock, so that threads pay; a rigid wheelset does not. Other stops may need
         # the cores meanwhile.
-        self.team = Team(None if any(isinstance(wheelset, FmuWheelset) for wheelset in wheelsets) else 1, patience=0.0)
+        self.team = Team(None if any(isinstance(wheelset, FmuWheelset | TwoWheels) for wheelset in wheelsets) else 1, patience=0.0)
 
     def step(
         self,
@@ -166,16 +167,18 @@ def wheelsets_of(
     fmu: Fmu | None,
     scenario: SimpleNamespace,
     coach: Coach,
-) -> tuple[list[FmuWheelset | RigidWheelset], list[tuple[int, str]]]:
+) -> tuple[list[FmuWheelset | TwoWheels | RigidWheelset], list[tuple[int, str]]]:
     """Wheelsets of all coaches from the front, and the warnings of their start: in the FMU, if there is one, where the scenario
     has them there; the others are rigid, with the friction law of the scenario's wheels and of the FMU, or refused if they do
     not know it."""
     wheelset, parameters = scenario.vehicle.wheelset, scenario.wheel
     damping = scenario.vehicle.primary.vertical_damping
     inside = (scenario.fmu_coaches or range(1, coach.count + 1)) if fmu else ()
-    if inside and parameters.get(SAVED):
-        raise Refused(f"{SAVED} = {parameters[SAVED]!r}: all wheelsets of a train would save to that file; leave it out here")
-    runs_straight(parameters)
+    if inside and (file := (parameters | scenario.right_wheel).get(SAVED)):
+        raise Refused(f"{SAVED} = {file!r}: all wheelsets of a train would save to that file; leave it out here")
+    runs_straight(parameters | scenario.right_wheel)
+    if len(inside) < coach.count and scenarios.of_two_kinds(scenario):
+        raise Refused("right_wheel, right_friction: both wheels of a rigid wheelset are equal; take wheelsets in the FMU")
     law = FrictionLaw.of(parameters, fmu) if len(inside) < coach.count else None
     found, told = [], []
     for axle in range(coach.count * AXLES):
@@ -183,8 +186,12 @@ def wheelsets_of(
             found.append(RigidWheelset(wheelset, scenario.speed, law=law))
             continue
         with collected() as texts:
-            about = dict(parameters), scenario.temperatures
-            found.append(FmuWheelset(fmu, wheelset, coach.static_load, scenario.speed, damping, *about))
+            about = fmu, wheelset, coach.static_load, scenario.speed, damping
+            if scenarios.of_two_kinds(scenario):
+                pair = parameters, parameters | scenario.right_wheel
+                found.append(TwoWheels(*about, pair, scenario.right_friction))
+            else:
+                found.append(FmuWheelset(*about, dict(parameters), scenario.temperatures))
         told += [(axle, text) for text in texts]
     return found, told
 

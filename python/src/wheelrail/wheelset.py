@@ -73,11 +73,12 @@ class FmuWheelset:
         damping: float = 0.0,
         parameters: Mapping[str, object] | None = None,
         beside: Mapping[str, object] | None = None,
+        alone: bool = False,
     ) -> None:
         """`wheelset` has mass [kg], inertia [kg m2] and radius [m]; `damping` [N s/m] resists its bounce; `parameters`
-        of the FMU count for one wheel and go before everything else."""
+        of the FMU count for one wheel and go before everything else. `alone` makes one wheel of a line, too."""
         self.mass, self.inertia, self.radius = wheelset.mass, wheelset.inertia, wheelset.radius
-        values, self.wheels = parameters_of(fmu, wheelset, parameters or {})
+        values, self.wheels = parameters_of(fmu, wheelset, parameters or {}, alone)
         self.share = self.wheels / WHEELS  # of the wheelset that the FMU is
         values |= {"initial.velocity": speed, "vehicle.mass": 0.0, "vehicle.damping": self.share * damping}
         self.wheel, self.beside = Wheel(fmu, values, {"drive.load": self.share * load}, name="wheelset"), None
@@ -96,28 +97,50 @@ class FmuWheelset:
         moves = {"control.rotation": "velocity", "control.translation": "velocity", "drive.velocity": speed, "drive.omega": omega}
         return Wheel(fmu, values, moves | {"drive.load": load / WHEELS}, name="beside")
 
-    def step(self, h: float, drive: Drive) -> Seen:
-        """Advances by `h` seconds."""
+    def step(self, h: float, drive: Drive, held: tuple[float, float] = (0.0, 0.0)) -> Seen:
+        """Advances by `h` seconds; `held` are force [N] and moment [N m] on the FMU besides."""
         share, before = self.share, self.wheel.get("wheel.velocity", "wheel.omega")
         ramped = {"drive.force": drive.force, "drive.load": drive.load, "brake.torque": drive.torque}
-        held = {"rail.friction": drive.friction, "rail.temperature": self.reference + drive.rail_excess}
-        held |= {"rail.elevation": drive.elevation, "rail.elevation_rate": drive.elevation_rate}
-        self.wheel.set({name: share * begin for name, (begin, _) in ramped.items()} | held)
+        rail = {"rail.friction": drive.friction, "rail.temperature": self.reference + drive.rail_excess}
+        rail |= {"rail.elevation": drive.elevation, "rail.elevation_rate": drive.elevation_rate}
+        begins = {name: share * begin for name, (begin, _) in ramped.items()}
+        begins |= {"drive.force": begins["drive.force"] + held[0], "drive.moment": held[1]}
+        self.wheel.set(begins | rail)
         self.wheel.set_rates({name: share * (end - begin) / h for name, (begin, end) in ramped.items()})
         self.wheel.step(h)
         seen = self.wheel.get(*OUTPUTS)
         self._heat += h * seen[7] / share
-        hot = self._follow(h, drive, held, list(zip(before, seen[1:3]))) if self.beside else seen[8:]
+        hot = self._follow(h, drive, rail, list(zip(before, seen[1:3]))) if self.beside else seen[8:]
         position, velocity, omega, force, load, torque, energy = seen[:7]
         return Seen(position, velocity, omega, force / share, load / share, torque / share, energy / share, self._heat, *hot)
 
-    def _follow(self, h, drive, held, motion):
+    def _follow(self, h, drive, rail, motion):
         """Temperatures of the wheel beside this one after a step from speeds to others."""
         ramped = {"drive.velocity": motion[0], "drive.omega": motion[1], "drive.load": [load / WHEELS for load in drive.load]}
-        self.beside.set({name: begin for name, (begin, _) in ramped.items()} | held)
+        self.beside.set({name: begin for name, (begin, _) in ramped.items()} | rail)
         self.beside.set_rates({name: (end - begin) / h for name, (begin, end) in ramped.items()})
         self.beside.step(h)
         return self.beside.get(*OF_HEAT)
+
+    def answers(self) -> np.ndarray:
+        """What speed [m/s] and peripheral speed [m/s] of the FMU gain in the last step per newton and per newton metre that act
+        on it: columns."""
+        known = ("drive.force", "drive.moment")
+        found = [self.wheel.derivatives(("wheel.velocity", "wheel.omega"), {name: 1.0}) for name in known]
+        return np.array(found).T * [[1.0], [self.radius]]
+
+    def save(self) -> tuple:
+        """A state for `restore`, without the wheel beside; free it with `forget`."""
+        return self.wheel.save(), self._heat
+
+    def restore(self, saved: tuple) -> None:
+        """Returns to a saved state."""
+        state, self._heat = saved
+        self.wheel.restore(state)
+
+    def forget(self, saved: tuple) -> None:
+        """Frees a saved state."""
+        self.wheel.forget(saved[0])
 
     def close(self) -> None:
         """Frees the instances."""
@@ -140,14 +163,16 @@ def runs_straight(parameters: Mapping[str, object]) -> None:
         raise Refused(f"{aside[0]}: wheelsets of a train run straight; leave it out, or give each wheel an FMU of its own (example 14)")
 
 
-def parameters_of(fmu: Fmu, wheelset: SimpleNamespace, parameters: Mapping[str, object]) -> tuple[dict[str, object], int]:
+def parameters_of(
+    fmu: Fmu, wheelset: SimpleNamespace, parameters: Mapping[str, object], alone: bool = False
+) -> tuple[dict[str, object], int]:
     """Parameters of an FMU that is the two wheels of an axle, which weigh and turn as given [kg, kg m2], and how many of them it is:
-    two as one of twice the width, or one for both where the patch has a width of its own."""
+    two as one of twice the width, or one for both where the patch has a width of its own, or where it is to be `alone`."""
     runs_straight(parameters)
     rim = dict(parameters) | {"wheel.radius": wheelset.radius, "wheel.hub_mass": 0.0, "wheel.hub_inertia": 0.0}
     # What is to be said of the parameters is said of the wheelset.
     with collected(), Wheel(fmu, rim) as one:
-        wheels = WHEELS if one.has_constant_width() else 1
+        wheels = WHEELS if one.has_constant_width() and not alone else 1
         mass, inertia = (wheels * value for value in one.get("wheel.mass", "wheel.inertia"))
         doubled = {name: wheels * value for name, value in zip(DOUBLED, one.get(*DOUBLED))} if wheels > 1 else {}
     share = wheels / WHEELS

@@ -22,6 +22,24 @@ impl ContactLine<'_> {
         self.problem.patch.map_or(0.0, |patch| moved(patch.powers(self.grid.x[i])))
     }
 
+    /// Displacement of the wheel less that of the rail by an elastic layer between them at a tangential port \[m].
+    pub fn moved_by_layer(&self, port: usize) -> f64 {
+        let force = self.traction.port_forces[port];
+        if force == 0.0 { 0.0 } else { force * self.layer_by_force(port) }
+    }
+
+    /// That displacement per unit nodal force [m/(N/m)].
+    pub fn layer_by_force(&self, port: usize) -> f64 {
+        let candidate = (port / 2).checked_sub(self.grid.guard).filter(|i| *i < self.grid.len());
+        candidate.map_or(0.0, |i| self.problem.layer / self.grid.width(i))
+    }
+
+    /// Elastic energy of the layer [J/m].
+    pub fn energy_of_layer(&self) -> f64 {
+        let energy = |i: usize| 0.5 * self.tangential(i) * self.moved_by_layer(self.grid.port(i));
+        (0..self.grid.len()).map(energy).sum()
+    }
+
     /// Strain of the wheel at a candidate \[1]; that of the rail is the opposite.
     pub fn stretch_by_lines(&self, i: usize) -> f64 {
         let Some(patch) = self.problem.patch else { return 0.0 };
@@ -38,6 +56,20 @@ impl ContactLine<'_> {
             let unit = std::array::from_fn(|k| if k == n { 1.0 } else { 0.0 });
             between.field(&unit).slip(slip_of_field(speeds, patch.half_length))
         }))
+    }
+
+    /// Adds the change of the slip at a candidate, of which the upwind `stencil` is given, with the forces on the layer to
+    /// their coefficients at the ports `window`.
+    pub fn add_slip_of_layer(&self, i: usize, stencil: [(usize, f64); 3], window: Range<usize>, forces: &mut [f64]) {
+        if self.problem.layer == 0.0 {
+            return;
+        }
+        let speed = -0.5 * (self.traction.rigid.travel + self.rim_velocity());
+        let carried = stencil.map(|(port, weight)| (port, speed * weight));
+        let rate = [(self.grid.port(i), self.problem.time.a0)];
+        for (port, factor) in rate.into_iter().chain(carried).filter(|(port, _)| window.contains(port)) {
+            forces[port] += factor * self.layer_by_force(port);
+        }
     }
 
     /// Adds the change of the slip at a candidate with the tangential forces of a line of the patch to their

@@ -38,11 +38,11 @@ fn remember(line: &mut ContactLine) {
     };
     for i in 0..line.grid.len() {
         let (port, [wheel, rail]) = (line.grid.port(i), &line.traction.surface);
-        let relative = wheel[port] - rail[port] + line.moved_by_lines(i);
+        let relative = wheel[port] - rail[port] + line.moved_by_lines(i) + line.moved_by_layer(port);
         push(&mut line.state.tangential_gap[i], relative);
     }
     push(&mut line.history.rim_angle, line.frame.rim_angle);
     let others = &line.iterate.others;
-    *line.energy =
-        0.5 * others.moments.iter().zip(&others.field.displacement).map(|(moment, by)| moment * by).sum::<f64>();
+    let by_lines = others.moments.iter().zip(&others.field.displacement).map(|(moment, by)| moment * by).sum::<f64>();
+    *line.energy = 0.5 * by_lines + line.energy_of_layer();
 }

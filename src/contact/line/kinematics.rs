@@ -19,7 +19,9 @@ impl ContactLine<'_> {
     /// Upwind derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
     pub fn stretches(&self, i: usize, row: UpwindWeights, to_right: bool) -> [f64; 2] {
         let [wheel, rail] = &self.traction.surface;
-        let (stencil, by_lines) = (self.stencil(i, row, to_right), self.stretch_by_lines(i));
+        let stencil = self.stencil(i, row, to_right);
+        let by_layer = stencil.iter().map(|(port, weight)| weight * self.moved_by_layer(*port)).sum::<f64>();
+        let by_lines = self.stretch_by_lines(i) + 0.5 * by_layer;
         [
             stencil.iter().map(|(port, weight)| weight * self.frame.tangential(wheel, *port)).sum::<f64>() + by_lines,
             stencil.iter().map(|(port, weight)| weight * rail[*port]).sum::<f64>() - by_lines,
@@ -31,7 +33,8 @@ impl ContactLine<'_> {
         let port = self.grid.port(i);
         let [wheel, rail] = &self.traction.surface;
         let turned = self.frame.tangential(wheel, port + 2) - self.frame.tangential(wheel, port - 2);
-        let by_lines = self.stretch_by_lines(i);
+        let by_layer = self.moved_by_layer(port + 2) - self.moved_by_layer(port - 2);
+        let by_lines = self.stretch_by_lines(i) + 0.5 * by_layer / self.grid.span(i);
         [turned / self.grid.span(i) + by_lines, self.grid.slope(rail, i, 0) - by_lines]
     }
 
@@ -63,7 +66,7 @@ impl ContactLine<'_> {
             let excess = || self.traction.port_forces[port + 1] - self.given.strength.limit[i];
             self.iterate.overlap[i] = if self.state.yielded[i] { self.creep(i) * excess() } else { 0.0 };
             if self.state.status[i].is_active() {
-                let relative = u_c[port] - u_p[port] + self.moved_by_lines(i);
+                let relative = u_c[port] - u_p[port] + self.moved_by_lines(i) + self.moved_by_layer(port);
                 let dynamic = problem.time.a0 * relative + self.given.slip_offset[i];
                 let slip = |[d_c, d_p]: [f64; 2]| v * (1.0 + d_p) - v_c - rim * d_c + dynamic;
                 let upwind = self.stretches(i, self.iterate.upwind.row(i), to_right);

@@ -146,6 +146,7 @@ impl ContactLine<'_> {
             constant += weight * (v * rail[at] - velocity * self.frame.tangential(wheel, at));
         }
         let [stretch_wheel, stretch_rail] = self.stretches(i, self.iterate.upwind.row(i), to_right);
+        self.add_slip_of_layer(i, stencil, window.clone(), forces);
         let [a, b, c] = stencil.map(|(at, weight)| (at, -(v + velocity) * weight));
         self.add_alone(0, by_angle, [(port, 2.0 * gain), a, b, c], window.clone(), forces);
         self.add_slip_by(i, self, window, forces);

@@ -47,6 +47,7 @@ impl SeriesLine<'_> {
                 slip[i] += time.a0 * now + time.a1 * last[i] + time.a2 * before[i];
             }
         }
+        self.add_layer(&shear, x, &mut slip);
         slip
     }
 

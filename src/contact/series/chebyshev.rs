@@ -148,6 +148,23 @@ impl Arch {
             && self.terms.iter().all(|term| term.is_finite())
     }
 
+    /// Slope of the traction at x [Pa/m]; beyond the stretch there is none.
+    pub fn slope<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
+        self.places(x).map(|t| {
+            let sin = (1.0 - t * t).max(0.0).sqrt();
+            if sin == 0.0 {
+                return 0.0;
+            }
+            // `d/dt sin (k + 1)θ = −(k + 1) cos (k + 1)θ / sin θ`, the cosines by their recursion.
+            let (mut before, mut now, mut sum) = (1.0, t, 0.0);
+            for (k, f) in self.terms[..self.count].iter().enumerate() {
+                sum += (k + 1) as f64 * f * now;
+                (before, now) = (now, 2.0 * t * now - before);
+            }
+            -sum / (sin * self.half_width)
+        })
+    }
+
     /// `∫ f ds` [N/m].
     pub fn total(&self) -> f64 {
         FRAC_PI_2 * self.half_width * self.terms[0]

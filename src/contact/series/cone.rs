@@ -152,12 +152,15 @@ impl SeriesLine<'_> {
     }
 
     /// Slips by the shear of points with the flexibility `kernel` \[m/s/Pa].
-    fn slips_by_points(&self, tables: &PointTables, kernel: Logarithm) -> [[f64; COUNT]; COUNT] {
+    pub fn slips_by_points(&self, tables: &PointTables, kernel: Logarithm) -> [[f64; COUNT]; COUNT] {
         let half = self.tractions.pressure.half_width;
         let speed = self.rigid.travel + self.rim_velocity();
         let convection = speed * kernel.factor * PI * self.upstream();
         let rate = -2.0 * kernel.factor * self.problem.line.time.a0 * half;
-        tables.slips_by_shear([convection, rate], [half, kernel.reach])
+        let mut slips = tables.slips_by_shear([convection, rate], [half, kernel.reach]);
+        let [by_slope, by_shear] = self.slip_of_layer();
+        tables.add_layer([by_slope * self.upstream() / half, by_shear], &mut slips);
+        slips
     }
 }
 

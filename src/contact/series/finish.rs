@@ -3,7 +3,7 @@
 use super::hot_layers::SeriesLayers;
 use super::places::{AtPlaces, total};
 use super::series_line::SeriesLine;
-use super::state::{AcrossPast, Past, SeriesPast, SeriesState, Tractions};
+use super::state::{AcrossPast, Past, SeriesPast, SeriesState, Tractions, layered};
 use super::surface::{less, plus};
 use super::tables::{POWER, PROFILE};
 use crate::contact::flexibility::ByPowers;
@@ -31,7 +31,8 @@ fn energy(line: &SeriesLine) -> f64 {
     let pulling =
         tangential.factor * (slide * slide * pressed + stuck - tangential.reach * line.friction_force().powi(2));
     let by_lines: f64 = line.powers[1].iter().zip(&line.field.displacement).map(|(moment, c)| 0.5 * moment * c).sum();
-    along + lift + by_lines + energy_across(line) - (pressing + pulling)
+    let layer = 0.5 * total(&line.stuck.force, &layered(line.problem.line.layer, &stick, &line.stuck.x));
+    along + lift + by_lines + layer + energy_across(line) - (pressing + pulling)
 }
 
 /// Elastic energy of the shear across [J/m].
@@ -42,13 +43,15 @@ fn energy_across(line: &SeriesLine) -> f64 {
     }
     let (places, force) = line.slipping_across();
     let own = kernel.factor * (kernel.reach * shear.total().powi(2) - total(&force, &shear.logarithm(&places)));
-    own + line
-        .across
-        .powers
-        .iter()
-        .zip(&line.across.field.displacement)
-        .map(|(moment, c)| 0.5 * moment * c)
-        .sum::<f64>()
+    let layer = 0.5 * total(&force, &layered(line.problem.line.layer, shear, &places));
+    own + layer
+        + line
+            .across
+            .powers
+            .iter()
+            .zip(&line.across.field.displacement)
+            .map(|(moment, c)| 0.5 * moment * c)
+            .sum::<f64>()
 }
 
 /// Power of pressure on the slope of the rail that slides past it [W/m].
@@ -92,6 +95,39 @@ fn expansion(line: &SeriesLine) -> f64 {
     along + lift
 }
 
+/// Slips along and across [m/s] of a line with forces across that do the work of friction on the forces at the places.
+///
+/// That a layer is carried through the patch does no work by the integral, but by the sum over the places, which misses the
+/// end of a layer where its slip has a root in the denominator. What points that stick seem to slip, and what is missed, belong to those
+/// that slip, or to the last one.
+fn layered_slips(line: &SeriesLine, forces: [&[f64; POWER]; 2]) -> [[f64; POWER]; 2] {
+    let mut slips = [line.slips, line.across.slips];
+    if line.problem.line.layer == 0.0 {
+        return slips;
+    }
+    let work = |slips: &[[f64; POWER]; 2]| -> f64 {
+        forces.iter().zip(slips).flat_map(|(f, s)| f.iter().zip(s)).map(|(force, slip)| force * slip).sum()
+    };
+    let places = line.slipping().0;
+    let carried = [&line.tractions.stick, &line.tractions.lateral].map(|shear| line.carried(shear, &places));
+    let all = work(&slips) - work(&carried);
+    for (q, _) in places.iter().enumerate().filter(|(_, x)| line.sticks_at(**x)) {
+        (slips[0][q], slips[1][q]) = (0.0, 0.0);
+    }
+    let seen = work(&slips);
+    if seen * all > 0.0 {
+        slips.as_flattened_mut().iter_mut().for_each(|slip| *slip *= all / seen);
+        return slips;
+    }
+    let last = if (places[0] < places[POWER - 1]) == (line.upstream() > 0.0) { 0 } else { POWER - 1 };
+    slips = [[0.0; POWER]; 2];
+    let square: f64 = forces.iter().map(|force| force[last] * force[last]).sum();
+    for (slips, force) in slips.iter_mut().zip(forces).filter(|_| square > 0.0) {
+        slips[last] = all * force[last] / square;
+    }
+    slips
+}
+
 /// Moves the histories on and takes the power: that of friction at the end of the step [W/m] and its energy in the step
 /// [J/m].
 fn remember(
@@ -109,6 +145,7 @@ fn remember(
         half_length: line.half_length,
         reach: line.problem.line.kernel.tangential.reach,
         share: line.problem.line.share,
+        layer: line.problem.line.layer,
         across: AcrossPast {
             field: [line.across.field.displacement, growth_across],
             kernel: line.problem.line.kernel.lateral,
@@ -130,10 +167,11 @@ fn remember(
         return history.friction.advance(time, slope_power(line), |q| [force[q], line.slips[q]]);
     }
     let (_, across) = line.slipping_across();
+    let slips = layered_slips(line, [force, &across]);
     history.friction.reach(2 * POWER);
     history.friction.advance(time, slope_power(line), |q| match q.checked_sub(POWER) {
-        None => [force[q], line.slips[q]],
-        Some(q) => [across[q], line.across.slips[q]],
+        None => [force[q], slips[0][q]],
+        Some(q) => [across[q], slips[1][q]],
     })
 }
 

@@ -72,16 +72,13 @@ impl SeriesLine<'_> {
     }
 
     fn point_problem(&self, surface: &SmoothSurfaces) -> PointProblem {
-        let (tables, kernel, upstream) =
-            (&self.constants.of_points, self.problem.line.kernel.tangential, self.upstream());
+        let (tables, upstream) = (&self.constants.of_points, self.upstream());
         let Arch { centre, half_width: half, terms, .. } = self.tractions.pressure;
         let at = |t: &f64| centre + upstream * half * t;
         let x = tables.slips.each_ref().map(at);
-        let convection = (self.rigid.travel + self.rim_velocity()) * kernel.factor * PI * upstream;
-        let rate = -2.0 * kernel.factor * self.problem.line.time.a0 * half;
         let density = self.tractions.pressure.density(&tables.tractions.each_ref().map(at));
         PointProblem {
-            by_shear: tables.slips_by_shear([convection, rate], [half, kernel.reach]),
+            by_shear: self.slips_by_points(tables, self.problem.line.kernel.tangential),
             known: self.slip(&x, surface, false),
             powers: self.powers_at(&x),
             bears: density.map(|p| self.friction * p),
@@ -101,6 +98,10 @@ impl SeriesLine<'_> {
 
 /// Finds tractions and motions: on arches where slip is one stretch in one direction on every line, else on points.
 pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
+    // Under a layer shear begins with a slope, and ends without a root where slip begins: arches have neither.
+    if contact.lines.iter().any(|line| line.problem.line.layer > 0.0) {
+        return Err(ContactError::Unsuited { reason: "there is an elastic layer" });
+    }
     if contact.lines.iter().all(|line| line.tractions.directions.is_none()) {
         let Err(error) = stick::solve(contact) else { return Ok(()) };
         contact.lines.iter_mut().for_each(SeriesLine::begin_anew);

@@ -32,6 +32,9 @@ pub struct PointTables {
     /// Cauchy integrals over π, and logarithmic ones, at the places of the slips, by point of the traction.
     cauchy: [[f64; COUNT]; COUNT],
     logarithm: [[f64; COUNT]; COUNT],
+    /// Slopes and values of the traction there, by point of the traction.
+    slope: [[f64; COUNT]; COUNT],
+    value: [[f64; COUNT]; COUNT],
 }
 
 impl PointTables {
@@ -58,6 +61,18 @@ impl PointTables {
             terms,
             cauchy: by_point(cauchy_terms),
             logarithm: by_point(logarithm_terms),
+            slope: by_point(slope_terms),
+            value: by_point(value_terms),
+        }
+    }
+
+    /// Adds the slips of an elastic layer [m/s/Pa]: by the slope of the shear by t, and by the shear.
+    pub fn add_layer(&self, [by_slope, by_shear]: [f64; 2], slips: &mut [[f64; COUNT]; COUNT]) {
+        if by_slope == 0.0 && by_shear == 0.0 {
+            return;
+        }
+        for (slips, (slope, value)) in slips.iter_mut().zip(self.slope.iter().zip(&self.value)) {
+            (0..COUNT).for_each(|i| slips[i] += by_slope * slope[i] + by_shear * value[i]);
         }
     }
 
@@ -85,6 +100,18 @@ impl PointTables {
             if k < COUNT { sign * self.terms[k].iter().zip(q).map(|(by, q)| by * q).sum::<f64>() } else { 0.0 }
         })
     }
+}
+
+/// Values of the terms `sin (k + 1)θ` at a place.
+fn value_terms(t: f64, _: usize) -> [f64; TERMS] {
+    let angle = libm::acos(t);
+    std::array::from_fn(|k| libm::sin((k + 1) as f64 * angle))
+}
+
+/// Their slopes by t.
+fn slope_terms(t: f64, _: usize) -> [f64; TERMS] {
+    let angle = libm::acos(t);
+    std::array::from_fn(|k| -((k + 1) as f64) * libm::cos((k + 1) as f64 * angle) / libm::sin(angle))
 }
 
 impl Default for PointTables {
@@ -220,9 +247,16 @@ mod tests {
     /// Shear of half-planes in units of friction at the peak of the pressure, rolling to the leading edge with a creepage over
     /// that at which all slips, by changing the states that contradict friction; and the number of changes.
     fn steady(creepage: f64) -> ([f64; COUNT], usize) {
+        of_bodies([1.0, 0.0], creepage)
+    }
+
+    /// Shear as of [`steady`] of half-planes and a layer with parts of their flexibilities, `1` and `2L/κπa`.
+    fn of_bodies([half_planes, layer]: [f64; 2], creepage: f64) -> ([f64; COUNT], usize) {
         let tables = PointTables::new();
+        let mut by_shear = tables.slips_by_shear([half_planes, 0.0], [1.0, 0.0]);
+        tables.add_layer([-layer, 0.0], &mut by_shear);
         let problem = PointProblem {
-            by_shear: tables.slips_by_shear([1.0, 0.0], [1.0, 0.0]),
+            by_shear,
             known: [creepage; COUNT],
             powers: [[0.0; COUNT]; POINTS],
             bears: tables.tractions.map(|t| (1.0 - t * t).sqrt()),
@@ -257,6 +291,28 @@ mod tests {
         assert!(worst < 2e-3 && most <= 12);
     }
 
+    /// Elastic layer between rigid bodies under Hertz's pressure: shear grows as `k(1 − t)` until it is that of friction, at
+    /// `t = (k² − 1)/(k² + 1)`.
+    #[test]
+    fn the_force_on_a_layer_alone_is_that_of_a_brush_at_every_creepage() {
+        let tables = PointTables::new();
+        let brush = |k: f64| {
+            let t = (k * k - 1.0) / (k * k + 1.0);
+            let slips = 0.5 * (t * (1.0 - t * t).sqrt() + t.asin() + FRAC_PI_2);
+            -(0.5 * k * (1.0 - t) * (1.0 - t) + slips) / FRAC_PI_2
+        };
+        let mut worst = 0.0_f64;
+        for k in [0.02, 0.1, 0.3, 0.6, 1.0, 1.5, 2.5, 5.0, 20.0] {
+            for sign in [1.0, -1.0] {
+                let (shear, changes) = of_bodies([0.0, 1.0], sign * k);
+                let force = sign * tables.terms_of(&shear, 1.0)[0];
+                println!("k {k}: {force:.4}, brush {:.4}, {changes} changes", brush(k));
+                worst = worst.max((force - brush(k)).abs());
+            }
+        }
+        assert!(worst < 0.01, "{worst}");
+    }
+
     /// Drive of the half-planes of [`Rolling`].
     #[derive(Clone, Copy, Debug)]
     enum RollingDrive {
@@ -269,6 +325,8 @@ mod tests {
     /// creepage is that over the one at which all slips.
     struct Rolling {
         tables: PointTables,
+        /// Flexibility of the layer over that of the half-planes.
+        layer: f64,
         past: [Arch; 2],
         /// Way of the step before; the creepage and the states after it.
         way: f64,
@@ -281,14 +339,16 @@ mod tests {
     const MASS: f64 = 1e-3;
 
     impl Rolling {
-        fn new() -> Self {
+        fn new(layer: f64) -> Self {
             let past = [Arch { half_width: 1.0, count: COUNT, ..Arch::default() }; 2];
-            Self { tables: PointTables::new(), past, way: 0.0, creepage: 0.0, states: [0; COUNT] }
+            Self { tables: PointTables::new(), layer, past, way: 0.0, creepage: 0.0, states: [0; COUNT] }
         }
 
         /// Displacement under a shear.
-        fn displacement(shear: &Arch, x: &[f64; COUNT]) -> [f64; COUNT] {
-            shear.logarithm(x).map(|log| (libm::log(REACH) * shear.total() - log) / PI)
+        fn displacement(&self, shear: &Arch, x: &[f64; COUNT]) -> [f64; COUNT] {
+            let (logarithm, density) = (shear.logarithm(x), shear.density(x));
+            let by_planes = |log: f64| (libm::log(REACH) * shear.total() - log) / PI;
+            std::array::from_fn(|i| by_planes(logarithm[i]) + self.layer * density[i])
         }
 
         /// A step on a patch of half-width `half` with speed 1, or one of the duration `way` at rest; number of changes of the
@@ -296,11 +356,13 @@ mod tests {
         fn advance(&mut self, (way, half, rolls): (f64, f64, bool), drive: RollingDrive) -> Option<usize> {
             let time = formula(way, self.way);
             let places = self.tables.slips.map(|t| half * t);
-            let [now, before] = self.past.each_ref().map(|shear| Self::displacement(shear, &places));
+            let [now, before] = self.past.each_ref().map(|shear| self.displacement(shear, &places));
             let given = if let RollingDrive::Creepage(creepage) = drive { creepage } else { 0.0 };
             let convection = if rolls { 1.0 } else { 0.0 };
+            let mut by_shear = self.tables.slips_by_shear([convection, -time.a0 * half / PI], [half, libm::log(REACH)]);
+            self.tables.add_layer([-convection * self.layer / half, time.a0 * self.layer], &mut by_shear);
             let problem = PointProblem {
-                by_shear: self.tables.slips_by_shear([convection, -time.a0 * half / PI], [half, libm::log(REACH)]),
+                by_shear,
                 known: std::array::from_fn(|i| given + time.a1 * now[i] + time.a2 * before[i]),
                 powers: std::array::from_fn(|p| if p == 0 { [1.0; COUNT] } else { [0.0; COUNT] }),
                 bears: self.tables.tractions.map(|t| half * (1.0 - t * t).sqrt()),
@@ -340,14 +402,23 @@ mod tests {
     /// Jumps of creepage and load, a held force, standing, steps of a hundredth to ten half-widths.
     #[test]
     fn states_are_found_in_all_of_ten_thousand_random_transients() {
+        transients(0.0, 10_000);
+    }
+
+    #[test]
+    fn states_are_found_in_all_random_transients_under_a_layer() {
+        [0.01, 0.1, 1.0, 10.0].into_iter().for_each(|layer| transients(layer, 2_500));
+    }
+
+    fn transients(layer: f64, runs: usize) {
         let mut seed = 7_u64;
         let mut random = || {
             seed = seed.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
             (seed >> 11) as f64 / (1_u64 << 53) as f64
         };
         let (mut failed, mut most, mut sum, mut count) = (0, 0, 0, 0);
-        for _ in 0..10_000 {
-            let (mut rolling, mut half) = (Rolling::new(), 1.0);
+        for _ in 0..runs {
+            let (mut rolling, mut half) = (Rolling::new(layer), 1.0);
             for _ in 0..5 {
                 let way = half * libm::exp(random() * libm::log(1e3)) / 100.0;
                 half = if random() < 0.3 { (0.2 + 1.8 * random()).sqrt() } else { half };
@@ -363,7 +434,10 @@ mod tests {
                 }
             }
         }
-        println!("{count} steps, {:.2} changes each, at most {most}; {failed} failed", sum as f64 / count as f64);
+        println!(
+            "layer {layer}: {count} steps, {:.2} changes each, at most {most}; {failed} failed",
+            sum as f64 / count as f64
+        );
         assert_eq!(failed, 0);
     }
 }

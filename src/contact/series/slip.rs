@@ -42,6 +42,32 @@ impl SeriesLine<'_> {
                 slip[i] += time.a0 * now + time.a1 * last[i] + time.a2 * before[i];
             }
         }
+        self.add_layer(&stick, x, &mut slip);
         slip
+    }
+
+    /// Adds the rate of the shear of an elastic layer between the surfaces [m/s], of which earlier times are in the past;
+    /// half of the sum of both speeds carries it.
+    pub fn add_layer<const N: usize>(&self, shear: &Arch, x: &[f64; N], slip: &mut [f64; N]) {
+        if self.problem.line.layer == 0.0 || shear.half_width == 0.0 {
+            return;
+        }
+        let ([_, by_shear], carried, density) = (self.slip_of_layer(), self.carried(shear, x), shear.density(x));
+        (0..N).for_each(|i| slip[i] += carried[i] + by_shear * density[i]);
+    }
+
+    /// Part of the slip by which the layer is carried through the patch [m/s]. On the whole it does no work on the shear.
+    pub fn carried<const N: usize>(&self, shear: &Arch, x: &[f64; N]) -> [f64; N] {
+        if self.problem.line.layer == 0.0 || shear.half_width == 0.0 {
+            return [0.0; N];
+        }
+        let [by_slope, _] = self.slip_of_layer();
+        shear.slope(x).map(|slope| by_slope * slope)
+    }
+
+    /// Changes of the slip with the slope of the shear of the layer [m²/s/Pa], and with the shear [m/s/Pa].
+    pub fn slip_of_layer(&self) -> [f64; 2] {
+        let speed = self.rigid.travel + self.rim_velocity();
+        [-0.5 * speed, self.problem.line.time.a0].map(|by| by * self.problem.line.layer)
     }
 }

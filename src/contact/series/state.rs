@@ -55,6 +55,8 @@ pub struct SeriesPast {
     pub reach: f64,
     /// Share of the line in the width of the bodies \[1].
     pub share: f64,
+    /// Flexibility of the layer between the surfaces [m/Pa].
+    pub layer: f64,
     /// Displacement across.
     pub across: AcrossPast,
 }
@@ -69,7 +71,7 @@ pub struct AcrossPast {
 impl Default for SeriesPast {
     fn default() -> Self {
         let (tractions, smooth, field, across) = Default::default();
-        Self { tractions, smooth, field, half_length: 1.0, reach: 0.0, share: 0.0, across }
+        Self { tractions, smooth, field, half_length: 1.0, reach: 0.0, share: 0.0, layer: 0.0, across }
     }
 }
 
@@ -78,8 +80,8 @@ impl SeriesPast {
     pub fn across<const N: usize>(&self, x: &[f64; N], share: f64) -> [f64; N] {
         let (carried, AcrossPast { field, kernel }) = (self.carried(share), self.across);
         let (by_lines, shear) = (self.by_lines(&field, carried, x), &self.tractions.lateral);
-        let (own, total) = (shear.logarithm(x), kernel.reach * shear.total());
-        std::array::from_fn(|i| by_lines[i] + 2.0 * carried * kernel.factor * (total - own[i]))
+        let (own, total, layer) = (shear.logarithm(x), kernel.reach * shear.total(), layered(self.layer, shear, x));
+        std::array::from_fn(|i| by_lines[i] + layer[i] + 2.0 * carried * kernel.factor * (total - own[i]))
     }
 
     /// Displacement by the lines of the patch, carried on with a factor \[m].
@@ -217,8 +219,9 @@ impl Past {
     /// True if all numbers are finite and in range.
     pub fn is_sound(&self) -> bool {
         match self {
-            Past::Series(SeriesPast { tractions, smooth, field, half_length, reach, share, across }) => {
+            Past::Series(SeriesPast { tractions, smooth, field, half_length, reach, share, layer, across }) => {
                 *half_length > 0.0
+                    && layer.is_finite()
                     && half_length.is_finite()
                     && field.iter().chain(&across.field).all(|by| by.iter().all(|c| c.is_finite()))
                     && across.kernel.factor.is_finite()
@@ -245,12 +248,21 @@ impl Past {
                 let by_lines = past.by_lines(&past.field, carried, x);
                 let (smooth, logarithm) = (points.polynomial(&past.smooth), past.tractions.shear_logarithm(x));
                 let own = (carried - 1.0) * 2.0 * kernel * past.reach * past.tractions.total();
-                std::array::from_fn(|i| smooth.at(x[i]) + by_lines[i] + own - 2.0 * carried * kernel * logarithm[i])
+                let layer = layered(past.layer, &past.tractions.stick, x);
+                std::array::from_fn(|i| {
+                    smooth.at(x[i]) + by_lines[i] + own + layer[i] - 2.0 * carried * kernel * logarithm[i]
+                })
             }
             Past::Grid(first, spacing, values) if values.len() > 3 => x.map(|x| cubic((x - first) / spacing, values)),
             Past::Grid(..) => [0.0; N],
         }
     }
+}
+
+/// Displacement by an elastic layer under a shear \[m]. Shear on it is that of points, all of which is
+/// [`Tractions::stick`].
+pub fn layered<const N: usize>(layer: f64, shear: &Arch, x: &[f64; N]) -> [f64; N] {
+    if layer == 0.0 || shear.half_width == 0.0 { [0.0; N] } else { shear.density(x).map(|q| layer * q) }
 }
 
 /// Lagrange's cubic through the four nodes about a place; the nodes lie at 0, 1, 2 and so on.

@@ -26,6 +26,8 @@ def of_train(path, stops, scenario):
         ("vehicle", scenario.vehicle.name), ("brake", scenario.brake.name), ("track", scenario.track.name),
         ("speed at the start", f"{3.6 * scenario.speed:g} km/h"), ("communication step", f"{1e3 * scenario.step:g} ms"),
         *((name, str(value)) for name, value in scenario.wheel.items()),
+        *((f"right wheel: {name}", str(value)) for name, value in scenario.right_wheel.items()),
+        *([("friction of the right rail over the left one's", f"{scenario.right_friction:g}")] if scenario.right_friction != 1.0 else []),
     ]  # fmt: skip
     of_stops(path, stops, scenario.name, about)
 

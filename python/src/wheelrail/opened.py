@@ -1,0 +1,316 @@
+"""An opened FMU of FMI 2.0 or 3.0, and its instances, on fmpy: variables by name, enumerations by item name, SI units."""
+
+from __future__ import annotations
+
+import difflib
+import logging
+import os
+import re
+from collections.abc import Iterable, Mapping
+from itertools import count
+from numbers import Real
+from pathlib import Path
+from typing import Any, Self
+from weakref import finalize
+from xml.etree import ElementTree
+from zipfile import BadZipFile
+
+import fmpy
+from fmpy.model_description import ScalarVariable
+
+from .calls import Calls, Message
+from .folder import TemporaryFolder
+from .instances import scalars, unloaded
+from .values import Refused, check_names, kind, plain, saved_state, short, to_fmu
+from .warn import warn
+
+log = logging.getLogger("wheelrail.fmu")
+LEVELS = {0: logging.INFO, 1: logging.WARNING}  # of messages by their status; others are refusals
+WARNING = 1  # status of messages about calls that worked
+AT = re.compile(r"^t = \S+ s: ")  # with which the FMU begins warnings
+_numbers = count(1)
+
+
+def default_path() -> Path:
+    """The FMU named by the environment variable WHEELRAIL_FMU, else the one inside this package, else that of a checkout."""
+    inside, built = Path(__file__).with_name("wheelrail.fmu"), Path("target/wheelrail.fmu")
+    return Path(os.environ.get("WHEELRAIL_FMU") or (inside if inside.is_file() else built))
+
+
+class Fmu:
+    """An FMU extracted once, for any number of instances: that at `path`, or at `default_path()`. A context manager."""
+
+    def __init__(self, path: str | os.PathLike | None = None) -> None:
+        path = default_path() if path is None else path
+        if not isinstance(path, (str, os.PathLike)):
+            raise ValueError(f"Fmu({path!r}): expected the path of an FMU, or nothing")
+        if not Path(path).is_file():
+            raise FileNotFoundError(f"{path} does not exist: build it with `make fmu`, or name one by the variable WHEELRAIL_FMU")
+        self._folder = TemporaryFolder("wheelrail-")
+        try:
+            self.directory = fmpy.extract(str(path), unzipdir=str(self._folder.path))
+            self.description = fmpy.read_model_description(self.directory)
+        except (BadZipFile, KeyError, OSError, ValueError, SyntaxError) as failure:
+            self._folder.remove()
+            why = (str(failure).splitlines() or [type(failure).__name__])[0]
+            raise Refused(f"{path} is no FMU: {why}") from failure
+        if self.description.coSimulation is None or self.description.fmiVersion[0] not in "23":
+            self._folder.remove()
+            raise Refused(f"{path} is no FMU of FMI 2.0 or 3.0 for co-simulation")
+        self.variables, self.places = scalars(self.description)
+        notes = ElementTree.parse(Path(self.directory, "modelDescription.xml")).iter("Retired")
+        self.retired = {note.get("name"): note.get("refusal") for note in notes}
+
+    def variable(self, name: str) -> ScalarVariable:
+        """The variable of a name."""
+        if not isinstance(name, str):
+            raise ValueError(f"{name!r} is not the name of a variable, such as 'contact.force_x'")
+        if name in self.retired:
+            raise Refused(self.retired[name])
+        if name not in self.variables:
+            close = difflib.get_close_matches(name, self.variables, n=1)
+            raise Refused(f"the FMU has no variable {name}" + "".join(f"; did you mean {other}?" for other in close))
+        return self.variables[name]
+
+    def profiles(self) -> list[str]:
+        """Names of the quantities of `Wheel.profile`."""
+        points = (name.removeprefix("profile.") for name in self.variables if name.startswith("profile."))
+        return list(dict.fromkeys(point.split("[")[0] for point in points))
+
+    def of_lines(self) -> list[str]:
+        """Names of the quantities that each line of the patch has, such as `line.pressure_max`."""
+        return list(dict.fromkeys(name.split("[")[0] for name in self.variables if name.startswith("line.")))
+
+    def points(self, quantity: str) -> list[str]:
+        """Names of the variables that are the points of a profile, or of a quantity of lines (`line.pressure_max`)."""
+        stem = quantity if quantity in self.of_lines() else f"profile.{quantity}"
+        names = [name for name in self.variables if name.startswith(f"{stem}[")]
+        if names:
+            return names
+        if str(quantity).startswith("line.") and self.of_lines():
+            raise Refused(f"lines have no {quantity!r}; they have {', '.join(self.of_lines())}")
+        known = self.profiles()
+        raise Refused(f"the FMU has no profile {quantity!r}; it has {', '.join(known) or 'none, being built without'}")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._folder.remove()
+
+
+class Instance:
+    """An instance that is ready to step: see `fmu.Wheel`. `_recorders` are told of steps and of states that are restored."""
+
+    def __init__(
+        self,
+        fmu: Fmu,
+        parameters: Mapping[str, object] | None = None,
+        inputs: Mapping[str, object] | None = None,
+        name: str = "wheel",
+    ) -> None:
+        if not hasattr(fmu, "description"):
+            raise ValueError(f"Wheel({short(fmu)}): expected an opened FMU, `with Fmu(path) as fmu: Wheel(fmu)`")
+        for values in (parameters, inputs):
+            check_names(values or {}, "Wheel")
+        self.fmu, self.name = fmu, name
+        self.time = 0.0  # s
+        self.log: list[Message] = []
+        self._heard, self._said, self._recorders = 0, set(), []
+        self._calls = Calls(self.log)
+        self.slave = instance(fmu, f"{name}-{next(_numbers)}", self._calls)
+        self._free = finalize(self, _free, self.slave, self._calls)
+        self._free.atexit = False
+        try:
+            self._call(self.slave.setupExperiment, startTime=0.0)
+            # Other FMUs of this project, such as the coach, have no such choice.
+            given = {"initial.given": "written"} if "initial.given" in fmu.variables else {}
+            self._set(given | (parameters or {}))
+            self._call(self.slave.enterInitializationMode)
+            self._set(inputs or {})
+            self._begin()
+            self._say()
+        except BaseException:
+            self._free()
+            raise
+
+    def _begin(self):
+        """Ends initialization, after which the wheel steps."""
+        self._call(self.slave.exitInitializationMode)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Terminates and frees the instance; nothing happens if that has been done. Records keep what they have. A process
+        that was forked leaves the instance to the one that made it."""
+        if isinstance(self.slave, _Closed):
+            return
+        try:
+            if not self._calls.foreign():
+                self._call(self.slave.terminate)
+        finally:
+            self._free()
+            self.slave = _Closed()
+        self._say()
+
+    def set(self, values: Mapping[str, object]) -> None:
+        """Sets variables: `set({"drive.load": 8e4, "control.rotation": "velocity"})`."""
+        check_names(values, "set")
+        self._set(values)
+        self._say()
+
+    def _set(self, values):
+        given = [(variable, to_fmu(variable, values[variable.name])) for variable in map(self.fmu.variable, values)]
+        for variable, value in given:
+            if variable.type != "Real":
+                self._call(self._access("set", variable), [variable.valueReference], [value])
+        reals = [(variable.valueReference, value) for variable, value in given if variable.type == "Real"]
+        if reals:
+            self._call(self.slave.setReal, *map(list, zip(*reals)))
+
+    def set_rates(self, values: Mapping[str, float]) -> None:
+        """Sets time derivatives of real inputs for the next step only: they ramp instead of holding their values."""
+        check_names(values, "set_rates")
+        given = [(variable, to_fmu(variable, values[variable.name])) for variable in map(self.fmu.variable, values)]
+        for variable, _ in given:
+            if variable.type != "Real":
+                raise Refused(f"{variable.name} is a choice, which has no rate")
+        references, rates = [variable.valueReference for variable, _ in given], [rate for _, rate in given]
+        self._call(self.slave.setRealInputDerivatives, references, [1] * len(references), rates)
+        self._say()
+
+    def get(self, *names: str) -> Any:
+        """Values of variables of any types, choices by number; one name gives a scalar, several a list."""
+        if not names:
+            raise ValueError("get() needs the name of a variable, such as get('contact.force_x')")
+        variables, values = [self.fmu.variable(name) for name in names], {}
+        for sort in dict.fromkeys(map(kind, variables)):
+            references = [v.valueReference for v in variables if kind(v) == sort]
+            values |= zip(references, self._call(getattr(self.slave, "get" + sort), references))
+        values = [plain(variable, values[variable.valueReference]) for variable in variables]
+        return values[0] if len(names) == 1 else values
+
+    def profile(self, quantity: str) -> list[float]:
+        """A profile as a list over its points.
+
+        Across the contact patch: `x` [m], positive ahead of the wheel centre, `pressure` [Pa], `shear` [Pa], `slip` [m/s], and across `shear_z`, `slip_z`,
+        `temperature_wheel` and `temperature_rail` [K] of the surfaces. Below the surface: `depth` [m],
+        `temperature_wheel_below` and `temperature_rail_below` [K] under the contact point, `temperature_tread_below` [K] under
+        the point of the tread at `thermal.tread_point`, `peak_temperature` [K] so far of the places that were heated in one
+        piece. `Fmu.profiles` lists them.
+        """
+        return self.get(*self.fmu.points(quantity))
+
+    def derivatives(self, outputs: Iterable[str], inputs: Mapping[str, float]) -> list[float]:
+        """What real outputs gain in the last step per unit of a change of its inputs, such as `{"drive.force": 1.0}`."""
+        check_names(inputs, "derivatives")
+        unknown, known = ([self.fmu.variable(name).valueReference for name in names] for names in (outputs, inputs))
+        return list(self._call(self.slave.getDirectionalDerivative, unknown, known, list(inputs.values())))
+
+    def lines(self) -> int:
+        """Number of lines of the patch across its width: `contact.line_count`, at most `contact.lines`."""
+        return int(self.get("contact.line_count"))
+
+    def has_constant_width(self) -> bool:
+        """Whether the patch is a line of constant width: `contact.shape` = line."""
+        shape = self.fmu.variables.get("contact.shape")
+        return shape is None or shape.declaredType.items[int(self.get(shape.name)) - 1].name == "line"
+
+    def line(self, quantity: str) -> list[float]:
+        """What each line of the patch has as a list in the order of their positions: `line("pressure_max")`."""
+        points = self.fmu.points(f"line.{str(quantity).removeprefix('line.')}")[: self.lines()]
+        values = self.get(*points)
+        return values if len(points) > 1 else [values]
+
+    def step(self, h: float) -> None:
+        """Advances by `h` seconds."""
+        if not isinstance(h, Real):
+            raise ValueError(f"step({short(h)}): expected a number of seconds")
+        self.advance(h)
+        for recorder in self._recorders:
+            recorder.stepped()
+        self._say()
+
+    def sample(self) -> None:
+        """Lets all records take a sample now, whose turn it may not be."""
+        for recorder in self._recorders:
+            recorder.sample()
+
+    def advance(self, h: float) -> None:
+        """Advances by a part of `h` seconds of a step; records do not count it."""
+        self._call(self.slave.doStep, self.time, h)
+        self.time += h
+
+    def save(self) -> tuple[object, float]:
+        """A handle for `restore`; free it with `forget`."""
+        return self._call(self.slave.getFMUstate), self.time
+
+    def restore(self, saved: tuple[object, float]) -> None:
+        """Returns to a saved state; records lose what came after it."""
+        state, time = saved_state(saved)
+        for recorder in self._recorders:
+            recorder.listen()
+        self._call(self.slave.setFMUstate, state)
+        self.time = time
+        for recorder in self._recorders:
+            recorder.rewind()
+        self._say()
+
+    def forget(self, saved: tuple[object, float]) -> None:
+        """Frees a saved state."""
+        self._call(self.slave.freeFMUstate, saved_state(saved)[0])
+
+    def _access(self, direction, variable):
+        return getattr(self.slave, direction + kind(variable))
+
+    def _call(self, function, *arguments, **named):
+        try:
+            return self._calls(function, *arguments, **named)
+        except Refused:
+            self._say()
+            raise
+
+    def _say(self):
+        """Says warnings that have not been said."""
+        while self._heard < len(self.log):
+            message = self.log[self._heard]
+            self._heard += 1
+            log.log(LEVELS.get(message.status, logging.ERROR), "%s: %s", self.name, message)
+            if message.status == WARNING and (text := AT.sub("", message)) not in self._said:
+                self._said.add(text)
+                warn(str(message))
+
+
+class _Closed:
+    """Stands for the instance of a wheel that has been closed."""
+
+    def __getattr__(self, _):
+        raise Refused("the wheel is closed: read its results before, or record them")
+
+
+def instance(fmu: Fmu, name: str, call: Calls) -> Any:
+    """An instance of the FMU's library, which is loaded with it."""
+    here = os.getcwd()
+    if not Path(fmu.directory).is_dir():
+        raise Refused("the FMU is closed: open wheels within `with Fmu() as fmu`")
+    try:
+        slave = unloaded(fmu, name)
+    except Exception as failure:  # fmpy raises plain exceptions
+        os.chdir(here)  # where fmpy has left
+        raise Refused(f"the library of the FMU cannot be loaded on this machine: {failure}") from failure
+    try:
+        call(slave.start, call.log)
+    except Exception as failure:
+        raise Refused("; ".join(call.log) or str(failure)) from failure
+    return slave
+
+
+def _free(slave, call):
+    """Frees an instance that this process has made."""
+    if not call.foreign():
+        with call.lock:
+            slave.freeInstance()
