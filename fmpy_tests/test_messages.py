@@ -35,7 +35,7 @@ def test_all_that_is_set_from_python_counts_zero_creepage_too(start):
 
 def test_rigid_wheelsets_refuse_unknown_parameters_and_name_those_without_effect(packed, monkeypatch, capsys):
     monkeypatch.setenv("WHEELRAIL_FMU", str(packed))
-    scenario = lambda **wheel: SimpleNamespace(wheel=wheel, temperatures={}, sweep=SimpleNamespace(wheel={}), paths={"scenario": "stop.json"})
+    scenario = lambda **wheel: SimpleNamespace(wheel=wheel, right_wheel={}, right_friction=1.0, temperatures={}, sweep=SimpleNamespace(wheel={}), paths={"scenario": "stop.json"})
     with pytest.raises(BadFile, match="stop.json: wheel: friction.faling_ratio is no parameter of the FMU; did you mean friction.falling_ratio"):
         rigid(scenario(**{"friction.faling_ratio": 0.4}))
     rigid(scenario(**{"friction.falling_ratio": 0.4}))
