@@ -180,7 +180,7 @@ impl<'a> ActiveSet<'a> {
     /// Finds the coefficients that the law gives to the slips of the states that they lead to. Each line has a search
     /// of its own, which begins anew where the other lines have shifted its solution.
     fn find_coefficients(&mut self) -> Result<(), ContactError> {
-        let begun = |line: &ContactLine| CoefficientSearch::new(line.problem.friction.bounds(), 1.0);
+        let begun = |line: &ContactLine| CoefficientSearch::new(line.problem.friction.bounds());
         let mut searches: Vec<_> = self.lines.iter().map(begun).collect();
         for _ in 0..MAX_COEFFICIENTS {
             let mut found = true;

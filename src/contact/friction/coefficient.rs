@@ -6,9 +6,6 @@
 //! slowly, it is halved, so that steep laws, jumps from slip to stick and long steps converge as well. Friction that
 //! falls faster than inertia and elasticity allow within one step has several solutions; the search ends at one near
 //! its start.
-//!
-//! The first evaluations may be those of a contact that has not settled yet: they move the coefficient, but bound nothing.
-//! With a slope from the step before they are Newton's method, and mostly nothing is left to do once the contact has settled.
 
 /// Relative change of the coefficient that ends the search.
 const TOLERANCE: f64 = 1e-10;
@@ -18,12 +15,6 @@ const TOLERANCE: f64 = 1e-10;
 const NARROW: f64 = 1e-13;
 /// Evaluations in which secants must halve the bracket.
 const PATIENCE: usize = 4;
-/// Change of the coefficient over the errors at its ends with which it tells a slope.
-const NOTICED: f64 = 10.0;
-/// Evaluations in a contact that has not settled.
-const ROUGH: usize = 6;
-/// Slopes that a later search may begin with \[1].
-const ORDINARY: std::ops::Range<f64> = 0.1..10.0;
 
 /// The search in one contact problem.
 pub(in crate::contact) struct CoefficientSearch {
@@ -32,12 +23,8 @@ pub(in crate::contact) struct CoefficientSearch {
     /// True for the ends of it that were evaluated. The bounds of the law are solutions themselves where the contact
     /// sticks.
     tried: [bool; 2],
-    /// The evaluation before: coefficient, its excess over that of the law, and the error of the contact \[1].
-    before: Option<[f64; 3]>,
-    /// Change of the excess per change of the coefficient \[1].
-    slope: f64,
-    /// Evaluations in a contact that had not settled.
-    rough: usize,
+    /// The evaluation before: coefficient, and its excess over that of the law \[1].
+    before: Option<[f64; 2]>,
     /// Width of the bracket when secants were last given a chance, and evaluations since.
     width: f64,
     since: usize,
@@ -46,40 +33,30 @@ pub(in crate::contact) struct CoefficientSearch {
 }
 
 impl CoefficientSearch {
-    /// A search between the bounds of the law, with the slope of an earlier one \[1].
-    pub fn new(bracket: [f64; 2], slope: f64) -> Self {
-        let (width, slope) = (bracket[1] - bracket[0], if ORDINARY.contains(&slope) { slope } else { 1.0 });
-        Self { bracket, tried: [false; 2], before: None, slope, rough: 0, width, since: 0, again: Some(bracket) }
-    }
-
-    /// Change of the excess over the law per change of the coefficient, for a later search \[1].
-    pub fn slope(&self) -> f64 {
-        self.slope
-    }
-
-    /// A better coefficient after `used` gave a slip at which the law gives `found`, in a contact that has not settled but
-    /// for a relative `error`; `None` where both agree, or where only a contact that has settled can tell more.
-    pub fn approach(&mut self, used: f64, found: f64, error: f64) -> Option<f64> {
-        if self.rough == ROUGH {
-            return None;
-        }
-        let [low, high] = self.bracket;
-        let proposal = self.secant(used, found, error * used.abs())?;
-        self.rough += 1;
-        Some(if self.slope > 0.0 { proposal.clamp(low, high) } else { found })
+    /// A search between the bounds of the law.
+    pub fn new(bracket: [f64; 2]) -> Self {
+        let width = bracket[1] - bracket[0];
+        Self { bracket, tried: [false; 2], before: None, width, since: 0, again: Some(bracket) }
     }
 
     /// The coefficient to try next after `used` gave a slip at which the law gives `found`; `None` where both agree.
     pub fn next(&mut self, used: f64, found: f64) -> Option<f64> {
-        let proposal = self.secant(used, found, 0.0)?;
-        let side = if used > found { 1 } else { 0 };
+        let excess = used - found;
+        if excess.abs() <= TOLERANCE * used.abs().max(found.abs()) {
+            return None;
+        }
+        let side = if excess > 0.0 { 1 } else { 0 };
         (self.bracket[side], self.tried[side]) = (used, true);
         let [low, high] = self.bracket;
         if high - low <= NARROW * high.abs() {
             let again = self.again.take()?;
-            *self = Self { again: None, rough: ROUGH, ..Self::new(again, 1.0) };
+            *self = Self { again: None, ..Self::new(again) };
             return Some(found);
         }
+        let proposal = match self.before.replace([used, excess]) {
+            Some([other, excess_there]) => used - excess * (used - other) / (excess - excess_there),
+            None => found,
+        };
         self.since += 1;
         if self.since > PATIENCE {
             let slow = high - low > 0.5 * self.width;
@@ -95,20 +72,6 @@ impl CoefficientSearch {
             _ => 0.5 * (low + high),
         })
     }
-
-    /// Proposal of a secant from an evaluation with an `error` \[1]; `None` where it agrees with the law.
-    fn secant(&mut self, used: f64, found: f64, error: f64) -> Option<f64> {
-        let excess = used - found;
-        if excess.abs() <= TOLERANCE * used.abs().max(found.abs()) {
-            return None;
-        }
-        if let Some([other, there, error_there]) = self.before.replace([used, excess, error])
-            && (used - other).abs() > NOTICED * error.max(error_there)
-        {
-            self.slope = (excess - there) / (used - other);
-        }
-        Some(used - excess / self.slope)
-    }
 }
 
 #[cfg(test)]
@@ -117,7 +80,7 @@ mod tests {
 
     /// Coefficient and evaluations until `law(slip(μ)) = μ`.
     fn search(start: f64, bounds: [f64; 2], law: impl Fn(f64) -> f64) -> (f64, usize) {
-        let (mut search, mut mu) = (CoefficientSearch::new(bounds, 0.0), start);
+        let (mut search, mut mu) = (CoefficientSearch::new(bounds), start);
         for count in 1..200 {
             match search.next(mu, law(mu)) {
                 Some(next) => mu = next,

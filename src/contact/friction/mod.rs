@@ -8,15 +8,18 @@
 //! | `heating` | temperature per friction coefficient, extrapolated over a step |
 //! | `step` | the coefficient in one contact problem: memory, bounds |
 //! | `coefficient` | search for the coefficient that the law gives to the slip that it causes |
+//! | `together` | that search for several lines at once |
 
 mod coefficient;
 mod heating;
 mod law;
 mod slip;
 mod step;
+mod together;
 
 pub(super) use coefficient::CoefficientSearch;
 pub use heating::Heating;
 pub use law::FrictionLaw;
 pub use slip::SlipDependence;
 pub use step::Friction;
+pub(super) use together::CoefficientsTogether;

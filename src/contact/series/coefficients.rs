@@ -4,77 +4,102 @@ use super::contact::SeriesContact;
 use super::series_line::SeriesLine;
 use super::state::Tractions;
 use crate::contact::error::ContactError;
-use crate::contact::friction::CoefficientSearch;
+use crate::contact::friction::{CoefficientSearch, CoefficientsTogether};
 
 /// Error of a contact whose slip tells nothing about friction \[1].
 const ROUGHEST: f64 = 0.1;
-/// Friction coefficients that are tried.
-const MOST: usize = 150;
+/// Friction coefficients that are tried, and those of all lines together.
+const MOST: usize = 200;
+const TOGETHER: usize = 50;
 /// Iterations of a contact whose friction varies over those of one whose friction does not.
 const FURTHER: usize = 10;
 
 /// The searches on all lines; `None`: the slip does not change friction.
 pub struct FrictionSearches {
-    searches: Vec<Option<CoefficientSearch>>,
+    searches: Option<Searches>,
     tried: usize,
+}
+
+/// A search on all lines together, and in its place one on each where that has found nothing.
+enum Searches {
+    Together(CoefficientsTogether),
+    Apart(Vec<CoefficientSearch>),
 }
 
 impl FrictionSearches {
     pub fn new(contact: &SeriesContact) -> Self {
-        let begun = |line: &SeriesLine| {
-            let law = &line.problem.line.friction;
-            law.varies().then(|| CoefficientSearch::new(law.bounds(), line.law_slope))
-        };
-        Self { searches: contact.lines.iter().map(begun).collect(), tried: 0 }
-    }
-
-    fn vary(&self) -> bool {
-        self.searches.iter().any(Option::is_some)
+        let varies = contact.lines.iter().any(|line| line.problem.line.friction.varies());
+        let slopes = contact.lines.iter().map(|line| line.law_slope);
+        let searches = varies.then(|| Searches::Together(CoefficientsTogether::new(bounds(contact), slopes)));
+        Self { searches, tried: 0 }
     }
 
     /// Iterations of the contact at most, of which there are `most` where friction does not vary.
     pub fn rounds(&self, most: usize) -> usize {
-        if self.vary() { FURTHER * most } else { most }
+        if self.searches.is_some() { FURTHER * most } else { most }
     }
 
     /// Gives lines coefficients nearer to the laws of their slips after an iteration that left a relative `error`; returns
     /// the largest relative distance from a law that one had.
     pub fn follow(&mut self, contact: &mut SeriesContact, error: f64) -> Result<f64, ContactError> {
-        if error > ROUGHEST || !self.vary() {
+        if error > ROUGHEST || !matches!(self.searches, Some(Searches::Together(_))) {
             return Ok(0.0);
         }
         contact.find_slips();
-        self.improve(contact, |search, used, found| search.approach(used, found, error))
+        self.improve(contact, error)
     }
 
-    /// True if the friction of a contact that has settled obeys the laws of its slips; `false`: it has to settle with other coefficients.
+    /// True if the friction of a contact that has settled obeys the laws of its slips, too; `false`: it has to settle with
+    /// other coefficients.
     pub fn settle(&mut self, contact: &mut SeriesContact) -> Result<bool, ContactError> {
-        Ok(self.improve(contact, CoefficientSearch::next)? == 0.0)
+        match self.searches {
+            // It has followed so far.
+            None | Some(Searches::Together(_)) => Ok(true),
+            Some(Searches::Apart(_)) => Ok(self.improve(contact, 0.0)? == 0.0),
+        }
     }
 
-    fn improve(
-        &mut self,
-        contact: &mut SeriesContact,
-        better: impl Fn(&mut CoefficientSearch, f64, f64) -> Option<f64>,
-    ) -> Result<f64, ContactError> {
+    fn improve(&mut self, contact: &mut SeriesContact, error: f64) -> Result<f64, ContactError> {
+        let Some(searches) = &mut self.searches else { return Ok(0.0) };
+        let used: Vec<f64> = contact.lines.iter().map(|line| line.friction).collect();
+        let law = |line: &SeriesLine| line.problem.line.friction.coefficient(line.slip_speed());
+        let found: Vec<f64> = contact.lines.iter().map(law).collect();
+        let next: Vec<Option<f64>> = match searches {
+            Searches::Together(search) => {
+                let next = search.next(used.clone(), &found, error);
+                contact.lines.iter_mut().enumerate().for_each(|(k, line)| line.law_slope = search.slope(k));
+                let of = |k: usize| next.as_ref().map(|next| next[k]);
+                (0..used.len()).map(of).collect()
+            }
+            Searches::Apart(searches) => {
+                let all = searches.iter_mut().zip(used.iter().zip(&found));
+                all.map(|(search, (used, found))| search.next(*used, *found)).collect()
+            }
+        };
         let mut distance = 0.0_f64;
-        for (line, search) in contact.lines.iter_mut().zip(&mut self.searches) {
-            let Some(search) = search else { continue };
-            let (used, found) = (line.friction, line.problem.line.friction.coefficient(line.slip_speed()));
-            let Some(next) = better(search, used, found) else { continue };
-            distance = distance.max((used - found).abs() / used.max(found));
-            line.law_slope = search.slope();
-            line.take_friction(next);
+        for (((line, next), used), found) in contact.lines.iter_mut().zip(&next).zip(&used).zip(&found) {
+            let Some(next) = next else { continue };
+            distance = distance.max((used - found).abs() / used.max(*found));
+            line.take_friction(*next);
         }
         if distance > 0.0 {
             self.tried += 1;
             contact.displace();
+        }
+        if self.tried == TOGETHER {
+            let apart = bounds(contact).into_iter().map(CoefficientSearch::new).collect();
+            self.searches = Some(Searches::Apart(apart));
         }
         match self.tried > MOST {
             true => Err(ContactError::Unsuited { reason: "no friction coefficient belongs to its slip" }),
             false => Ok(distance),
         }
     }
+}
+
+/// Smallest and largest coefficient of every line.
+fn bounds(contact: &SeriesContact) -> Vec<[f64; 2]> {
+    contact.lines.iter().map(|line| line.problem.line.friction.bounds()).collect()
 }
 
 impl SeriesContact<'_> {
