@@ -25,12 +25,13 @@ BRAKED = f"{START}&at=20:rail=leaves&at=40:load=110&at=60:torque=5&at=130:torque
 LOCKED = f"{START}&at=20:rail=leaves&at=40:lock&at=120:torque=1&at=120:release&at=140:load=80&at=150:hold"
 STEPS = 260
 NODE = shutil.which("node")
-# Relative difference of a value to the largest of its column, by rounding: of a wheel that rolls on in one direction, and of runs in
-# which a search may decide otherwise in single steps: a wheel that locks, and one that is turned when the rail becomes dry. Measured in the
-# steps with such a decision: 5.5e-5 (S1002, locking), 7.5e-6 (turned); 1e-12 in the steps before it.
-SAME, SAME_DECIDED = 1e-9, 2e-4
+# Relative difference of a value to the largest of its column, by rounding. Locked patches slide hot and yield: what differs by
+# 1e-13 in the load differs by 4e-9 to 8e-9 in their peak pressure on one and the same machine, whatever the tolerances of the
+# contact. Measured against WebAssembly: 2.2e-10 (turned), 2e-12 (braked), 3e-11 (line, locked); 5.9e-9 and 2.3e-9 (locked
+# ellipse, S1002).
+SAME, SAME_LOCKED_PATCH = 1e-9, 2e-8
 # Of the residual of the energy: what is left of works that cancel, over the energy that is stored, which is a thousandth of them.
-SAME_RESIDUAL, RESIDUAL_DECIDED = 1e-7, 1e-3
+SAME_RESIDUAL = 1e-7
 
 sys.path.insert(0, str(ROOT / "bench"))
 from library import Library  # noqa: E402
@@ -142,8 +143,8 @@ def compared(patch, run, text, found):
     residuals = zip(table(text)["solver.energy_residual"], table(found)["solver.energy_residual"])
     residual = max(abs(a - b) for a, b in residuals)
     print(f"{patch}: {worst:.1e} of {column}, residual {residual:.1e}")
-    assert worst < (SAME if run == BRAKED else SAME_DECIDED)
-    assert residual < (SAME_RESIDUAL if run == BRAKED else RESIDUAL_DECIDED)
+    assert worst < (SAME_LOCKED_PATCH if run == LOCKED and patch != "line" else SAME)
+    assert residual < SAME_RESIDUAL
 
 
 @pytest.mark.skipif(NODE is None, reason="node is not installed")
