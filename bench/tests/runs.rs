@@ -190,6 +190,18 @@ fn a_wheel_with_an_angle_of_attack_is_pushed_to_the_side_and_the_picture_carries
 }
 
 #[test]
+fn a_turned_wheel_that_locks_ends_where_its_steel_melts_with_advice_for_the_bench() {
+    let mut bench = run("patch=ellipse&rail=wet&speed=80&torque=3&angle=4&at=5:lock");
+    let (done, message) = (0..200).find_map(|k| bench.step().err().map(|message| (k, message))).unwrap();
+    println!("after {done} ms: {message}");
+    assert!(bench.outputs().temperature_wheel_max > 1400.0, "it fails while it is cold");
+    assert!(message.starts_with("a surface melts") && message.contains("restart with the angle 0"));
+    assert!(!message.contains("contact.lateral"), "the bench has no such control");
+    // The state stays that before the step, and the table is kept.
+    assert_eq!(columns(&bench.csv())("time").len(), done + 1);
+}
+
+#[test]
 fn a_frame_is_as_long_as_its_description_says_and_its_columns_are_those_of_the_table() {
     for patch in Patch::ALL {
         let mut bench = Bench::with_store(BasisStore::of_user());
