@@ -55,6 +55,15 @@ pub struct Field {
     pub strain: ByPowers,
 }
 
+/// Elastic material that fills the half-spaces of both bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace {
+    /// Shear modulus \[Pa].
+    pub shear_modulus: f64,
+    /// Poisson's ratio \[1].
+    pub poissons_ratio: f64,
+}
+
 /// Flexibility of all lines of a patch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PatchFlexibility {
@@ -85,12 +94,18 @@ pub struct InPatch<'a> {
     pub half_length: f64,
 }
 
+impl HalfSpace {
+    /// `1/πG` \[m²/N], in which all displacements by forces are.
+    pub fn factor(&self) -> f64 {
+        1.0 / (PI * self.shear_modulus)
+    }
+}
+
 impl PatchFlexibility {
-    /// That of half-spaces with a shear modulus \[Pa] and Poisson's ratio \[1] under lines on `tiles`; with `mirrored`
-    /// those beside the middle stand for a symmetric pair. Besides, for every line the logarithm of the distance over 1
+    /// That of half-spaces under lines on `tiles`; with `mirrored` those beside the middle stand for a symmetric pair. Besides, for every line the logarithm of the distance over 1
     /// m at which a force of its own no longer displaces it by more than the mean over all lines.
-    pub fn new(tiles: &[Tile], mirrored: bool, (shear_modulus, nu): (f64, f64)) -> (Self, Vec<f64>) {
-        let factor = 1.0 / (PI * shear_modulus);
+    pub fn new(tiles: &[Tile], mirrored: bool, material: HalfSpace) -> (Self, Vec<f64>) {
+        let (factor, nu) = (material.factor(), material.poissons_ratio);
         let beside = |tile: &Tile| mirrored && tile.edges[0] + tile.edges[1] > LEAST_OFFSET * tile.width();
         let mut pairs = table(tiles, factor, &beside, |at, of, x| at.displaced_by(of, x, nu));
         let reaches = take_reaches(&mut pairs, tiles.len(), 2.0 * (1.0 - nu) * factor);
@@ -99,8 +114,8 @@ impl PatchFlexibility {
 
     /// With forces and displacements across of the lines of [`Self::new`] on `tiles` that are not mirrored; and the
     /// logarithms for those.
-    pub fn sideways(self, tiles: &[Tile], (shear_modulus, nu): (f64, f64)) -> (Self, Vec<f64>) {
-        let factor = 1.0 / (PI * shear_modulus);
+    pub fn sideways(self, tiles: &[Tile], material: HalfSpace) -> (Self, Vec<f64>) {
+        let (factor, nu) = (material.factor(), material.poissons_ratio);
         let mut across = table(tiles, factor, &|_| false, |at, of, x| at.displaced_across_by(of, x, nu));
         let askew = table(tiles, factor, &|_| false, |at, of, x| at.displaced_askew_by(of, x, nu));
         let reaches = take_reaches(&mut across, tiles.len(), 2.0 * factor);
@@ -360,7 +375,7 @@ fn mean(displacement: &ByMoments) -> f64 {
 mod tests {
     use super::*;
 
-    const STEEL: (f64, f64) = (81e9, 0.3);
+    const STEEL: HalfSpace = HalfSpace { shear_modulus: 81e9, poissons_ratio: 0.3 };
 
     /// Strips beside each other, `scale` times as large as millimetres.
     fn strips(scale: f64) -> Vec<Tile> {
@@ -440,9 +455,9 @@ mod tests {
         let tile = Tile { edges: [-1.0, 1.0], half_length: 1e-3 };
         let (patch, reaches) = PatchFlexibility::new(&[tile], false, STEEL);
         let rest = patch.between(0, 0).field(&[1.0, 0.0, 0.0, 0.0, 0.0]);
-        let logarithm = 2.0 * (1.0 - STEEL.1) / (PI * STEEL.0);
+        let logarithm = 2.0 * (1.0 - STEEL.poissons_ratio) * STEEL.factor();
         // `asinh(w/|x|) − (1 − 2ν)/(1 − ν)` for a width w = 2.
-        let reach = 4.0_f64.ln() - (1.0 - 2.0 * STEEL.1) / (1.0 - STEEL.1);
+        let reach = 4.0_f64.ln() - (1.0 - 2.0 * STEEL.poissons_ratio) / (1.0 - STEEL.poissons_ratio);
         assert!((reaches[0] - reach).abs() < 1e-3);
         assert!(rest.displacement.iter().all(|c| c.abs() < 1e-3 * logarithm), "{rest:?}");
     }

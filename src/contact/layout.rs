@@ -1,6 +1,6 @@
 //! Lines side by side that stand for a patch under a load.
 
-use super::flexibility::PatchFlexibility;
+use super::flexibility::{HalfSpace, PatchFlexibility};
 use super::kernel::{LineKernel, Logarithm};
 use crate::analytic::HalfPlane;
 use crate::patch::gauss::{self, GaussLine};
@@ -41,10 +41,8 @@ pub struct LineLayout {
 pub struct PatchMaterial {
     /// Its half-plane.
     pub half_plane: HalfPlane,
-    /// Shear modulus \[Pa].
-    pub shear_modulus: f64,
-    /// Poisson's ratio \[1].
-    pub poissons_ratio: f64,
+    /// Its half-space.
+    pub half_space: HalfSpace,
 }
 
 /// A patch of contact lines, or several ones side by side, whose size follows from its load as that of an ellipse does:
@@ -84,8 +82,7 @@ pub struct PatchLayout {
     flexibility: Arc<PatchFlexibility>,
     /// Lengths of the lines on which they do, over those under the load of the description \[1].
     room: f64,
-    /// Shear modulus \[Pa] and Poisson's ratio \[1].
-    elastic: (f64, f64),
+    half_space: HalfSpace,
     /// Strain of the surface under the pressure of every line [1/Pa].
     couplings: Vec<f64>,
 }
@@ -145,9 +142,8 @@ impl PatchLayout {
         };
         let patches = || rows::patches(&rows).zip(shapes);
         let coupling = |shape: &EquivalentEllipse| material.half_plane.coupling * shape.b / (shape.a + shape.b);
-        let elastic = (material.shear_modulus, material.poissons_ratio);
-        let (flexibility, reaches) = PatchFlexibility::new(&tiles(&rows, symmetric, 1.0), symmetric, elastic);
-        let factor = material.half_plane.kernel;
+        let PatchMaterial { half_plane: HalfPlane { kernel: factor, .. }, half_space } = material;
+        let (flexibility, reaches) = PatchFlexibility::new(&tiles(&rows, symmetric, 1.0), symmetric, half_space);
         Self {
             gaps: rows.iter().map(|row| row.gap).collect(),
             symmetric,
@@ -161,7 +157,7 @@ impl PatchLayout {
             across: Vec::new(),
             flexibility: Arc::new(flexibility),
             room: 1.0,
-            elastic,
+            half_space,
             couplings: patches().flat_map(|(rows, shape)| std::iter::repeat_n(coupling(shape), rows.len())).collect(),
             rows,
         }
@@ -171,7 +167,7 @@ impl PatchLayout {
     /// with profiles are.
     pub fn with_room(self) -> Self {
         let (rows, symmetric) = (&self.rows, self.symmetric);
-        let (flexibility, reaches) = PatchFlexibility::new(&tiles(rows, symmetric, ROOM), symmetric, self.elastic);
+        let (flexibility, reaches) = PatchFlexibility::new(&tiles(rows, symmetric, ROOM), symmetric, self.half_space);
         let tangential = self.tangential.iter().zip(reaches).map(|(along, reach)| Logarithm { reach, ..*along });
         Self { tangential: tangential.collect(), flexibility: Arc::new(flexibility), room: ROOM, ..self }
     }
@@ -189,17 +185,17 @@ impl PatchLayout {
         let rows: Vec<_> = lower.chain(upper.iter().copied()).collect();
         let images = self.couplings.iter().skip(usize::from(middle)).rev().filter(|_| symmetric);
         let tiles = tiles(&rows, false, self.room);
-        let (along, reaches) = PatchFlexibility::new(&tiles, false, self.elastic);
-        let (flexibility, across) = along.sideways(&tiles, self.elastic);
+        let (along, reaches) = PatchFlexibility::new(&tiles, false, self.half_space);
+        let (flexibility, across) = along.sideways(&tiles, self.half_space);
         let kernel =
             |factor: f64, reaches: Vec<f64>| reaches.into_iter().map(|reach| Logarithm { factor, reach }).collect();
-        let (shear_modulus, nu) = self.elastic;
+        let (factor, nu) = (self.half_space.factor(), self.half_space.poissons_ratio);
         Self {
             gaps: rows.iter().map(|row| row.gap).collect(),
             couplings: images.chain(&self.couplings).copied().collect(),
             symmetric: false,
-            tangential: kernel((1.0 - nu) / (PI * shear_modulus), reaches),
-            across: kernel(1.0 / (PI * shear_modulus), across),
+            tangential: kernel((1.0 - nu) * factor, reaches),
+            across: kernel(factor, across),
             flexibility: Arc::new(flexibility),
             rows,
             ..self

@@ -25,7 +25,7 @@ pub mod solver;
 pub mod traction;
 
 pub use error::ContactError;
-pub use flexibility::{InPatch, PatchFlexibility};
+pub use flexibility::{HalfSpace, InPatch, PatchFlexibility};
 pub use friction::{Friction, FrictionLaw, Heating, SlipDependence};
 pub use kernel::{LineKernel, Logarithm};
 pub use layout::{LineLayout, PatchLayout, PatchMaterial};

@@ -2,7 +2,7 @@
 
 use super::line::Line;
 use crate::config::{Config, ContactShape, PatchRows, RowsError};
-use crate::contact::{LineKernel, LineLayout, Logarithm, PatchFlexibility, PatchLayout, PatchMaterial};
+use crate::contact::{HalfSpace, LineKernel, LineLayout, Logarithm, PatchFlexibility, PatchLayout, PatchMaterial};
 use crate::material::Isotropic;
 use crate::surface;
 use std::sync::Arc;
@@ -63,11 +63,9 @@ impl PatchLines {
     /// Rows without meaning, and a file of rows that has not been read.
     pub fn new(config: &Config, smooth: bool) -> Result<Self, RowsError> {
         let steel = Isotropic::from(&config.material);
-        let material = PatchMaterial {
-            half_plane: steel.half_plane(),
-            shear_modulus: steel.shear_modulus(),
-            poissons_ratio: config.material.poissons_ratio,
-        };
+        let half_space =
+            HalfSpace { shear_modulus: steel.shear_modulus(), poissons_ratio: config.material.poissons_ratio };
+        let material = PatchMaterial { half_plane: steel.half_plane(), half_space };
         let (lines, radius, width, load) =
             (config.contact.lines, config.wheel.radius, config.width(), config.model.nominal_load);
         let patch = match (config.contact.shape, config.patch_rows()?) {

@@ -14,7 +14,7 @@ use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::line::kernel::logarithms;
 use wheelrail::contact::series::SeriesSolver;
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactScratch, ContactSolver, ContactState, Friction, LineLayout, PatchLayout,
+    AxisDrive, ContactError, ContactScratch, ContactSolver, ContactState, Friction, HalfSpace, LineLayout, PatchLayout,
     PatchMaterial, Ports, RigidMotion, Spin,
 };
 use wheelrail::multistep::TimeDerivative;
@@ -46,7 +46,8 @@ fn modulus() -> f64 {
 
 fn material() -> PatchMaterial {
     let half_plane = HalfPlane { kernel: 1.0 / (PI * modulus()), coupling: (1.0 - 2.0 * NU) * (1.0 + NU) / YOUNG };
-    PatchMaterial { half_plane, shear_modulus: SHEAR_MODULUS, poissons_ratio: NU }
+    let half_space = HalfSpace { shear_modulus: SHEAR_MODULUS, poissons_ratio: NU };
+    PatchMaterial { half_plane, half_space }
 }
 
 pub fn reference() -> Json {
