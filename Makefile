@@ -98,7 +98,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack published locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs bench-page site describe clean
+.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 compilers fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack published locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs bench-page site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -163,9 +163,14 @@ ssp: $(FMU) $(COACH) $(INSTALLED)
 reference: $(BUILT)
 	$(PYTHON) examples/reference/make.py --binary $(BINARY)
 
-fmu-all: $(FMU_ALL) $(FMU_ALL3)
+# Before anything is compiled; whoever has the archive needs no compilers. By a variable, so that `make -n` does not run it.
+UP_TO_DATE = $(MAKE) --question --no-print-directory
+compilers:
+	@$(UP_TO_DATE) $(FMU_ALL) > /dev/null 2>&1 || packaging/build --check
 
-platforms-check: $(FMU_ALL) $(FMU_ALL3)
+fmu-all: compilers $(FMU_ALL) $(FMU_ALL3)
+
+platforms-check: compilers $(FMU_ALL) $(FMU_ALL3)
 	$(PYTHON) packaging/check.py $(FMU_ALL) --run
 	$(PYTHON) packaging/check.py $(FMU_ALL3) --run
 
@@ -173,11 +178,11 @@ python-wheel: $(FMU) $(INSTALLED)
 	$(PY) packaging/wheel.py $(FMU) --out target
 
 # What is handed out: the wheel for Linux and Windows, and the sdist for what else there is.
-python-dist: $(FMU_ALL) $(INSTALLED)
+python-dist: compilers $(FMU_ALL) $(INSTALLED)
 	$(PY) packaging/wheel.py $(FMU_ALL) --out target/dist
 	$(PY) packaging/wheel.py --sdist --out target/dist
 
-release: $(FMU_ALL) $(FMU_ALL3) $(SLIM_ALL) python-dist ssp site
+release: compilers $(FMU_ALL) $(FMU_ALL3) $(SLIM_ALL) python-dist ssp site
 	$(PYTHON) packaging/handout.py $(HANDOUT)
 
 masters: $(FMU) $(INSTALLED)
