@@ -28,7 +28,7 @@ pub(super) enum Progress {
 
 /// Outcome of one evaluation.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Followed {
+pub(super) enum Obedience {
     /// All coefficients obey their laws.
     Obeyed,
     /// There are new coefficients.
@@ -60,9 +60,9 @@ impl FollowedLaws {
     }
 
     /// Takes the slips of a solution and gives lines coefficients nearer to their laws.
-    pub fn follow(&mut self, lines: &mut [ContactLine], progress: Progress) -> Result<Followed, ContactError> {
+    pub fn follow(&mut self, lines: &mut [ContactLine], progress: Progress) -> Result<Obedience, ContactError> {
         lines.iter_mut().for_each(|line| line.traction.friction.tread_slip = states::mean_slip(line));
-        let Some(searches) = &mut self.searches else { return Ok(Followed::Obeyed) };
+        let Some(searches) = &mut self.searches else { return Ok(Obedience::Obeyed) };
         let used: Vec<f64> = lines.iter().map(|line| line.traction.friction.coefficient).collect();
         let law = |line: &ContactLine| line.problem.friction.coefficient(line.traction.friction.tread_slip);
         let found: Vec<f64> = lines.iter().map(law).collect();
@@ -71,10 +71,10 @@ impl FollowedLaws {
             Progress::Refined => 0.0,
             Progress::Settled if searches.follows() => UNREFINED,
             Progress::Searching if searches.follows() && self.gentle && used.iter().zip(&found).all(tells) => UNSETTLED,
-            Progress::Settled | Progress::Searching => return Ok(Followed::Waiting),
+            Progress::Settled | Progress::Searching => return Ok(Obedience::Waiting),
         };
         let next = match searches.take(&used, &found, error) {
-            Tried::Obeyed => return Ok(Followed::Obeyed),
+            Tried::Obeyed => return Ok(Obedience::Obeyed),
             Tried::Next(next) => next,
             Tried::Exhausted(iterations) => return Err(ContactError::NotConverged { iterations }),
         };
@@ -83,6 +83,6 @@ impl FollowedLaws {
             friction.coefficient = next.unwrap_or(friction.coefficient);
             friction.law_slope = searches.slope(k).unwrap_or(friction.law_slope);
         }
-        Ok(Followed::Moved)
+        Ok(Obedience::Moved)
     }
 }

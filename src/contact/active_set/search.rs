@@ -8,7 +8,7 @@
 //! within which a node keeps its state grows from iteration to iteration. In the end nodes change one by one ([`TOGETHER`]).
 
 use super::axes::Axes;
-use super::coefficients::{Followed, FollowedLaws, Progress};
+use super::coefficients::{FollowedLaws, Obedience, Progress};
 use super::fast::LinearSolver;
 use super::guess::Guess;
 use super::linear::{Known, LinearProblem};
@@ -171,8 +171,8 @@ impl<'a> ActiveSet<'a> {
                 false => continue,
             };
             match laws.follow(&mut self.lines, progress)? {
-                Followed::Moved if settled => iteration = 0,
-                Followed::Obeyed if refined => {
+                Obedience::Moved if settled => iteration = 0,
+                Obedience::Obeyed if refined => {
                     if balancing == MOST_BALANCING || self.turns_balance() {
                         return Ok(decided);
                     }

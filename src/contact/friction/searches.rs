@@ -13,12 +13,12 @@ const MOST: usize = 200;
 pub(in crate::contact) struct CoefficientSearches {
     /// Smallest and largest coefficient of every line \[1].
     bounds: Vec<[f64; 2]>,
-    way: Way,
+    method: CoefficientMethod,
     tried: usize,
 }
 
 /// A search on all lines together, or one on each.
-enum Way {
+enum CoefficientMethod {
     Together(CoefficientsTogether),
     Apart(Vec<CoefficientSearch>),
 }
@@ -36,33 +36,33 @@ pub(in crate::contact) enum Tried {
 impl CoefficientSearches {
     /// Searches between the bounds of the laws, with the slopes of earlier ones \[1].
     pub fn new(bounds: Vec<[f64; 2]>, slopes: impl Iterator<Item = f64>) -> Self {
-        let way = Way::Together(CoefficientsTogether::new(bounds.clone(), slopes));
-        Self { bounds, way, tried: 0 }
+        let method = CoefficientMethod::Together(CoefficientsTogether::new(bounds.clone(), slopes));
+        Self { bounds, method, tried: 0 }
     }
 
     /// True if evaluations may be those of a contact that has not settled yet.
     pub fn follows(&self) -> bool {
-        matches!(self.way, Way::Together(_))
+        matches!(self.method, CoefficientMethod::Together(_))
     }
 
     /// Change of the excess of a line over its law by a common change of all coefficients, for a later search \[1]; `None`:
     /// it is not known.
     pub fn slope(&self, line: usize) -> Option<f64> {
-        match &self.way {
-            Way::Together(search) => Some(search.slope(line)),
-            Way::Apart(_) => None,
+        match &self.method {
+            CoefficientMethod::Together(search) => Some(search.slope(line)),
+            CoefficientMethod::Apart(_) => None,
         }
     }
 
     /// Takes an evaluation: coefficients `used` gave slips at which the laws give `found`, in a contact with a relative
     /// `error`.
     pub fn take(&mut self, used: &[f64], found: &[f64], error: f64) -> Tried {
-        let next: Vec<Option<f64>> = match &mut self.way {
-            Way::Together(search) => match search.next(used.to_vec(), found, error) {
+        let next: Vec<Option<f64>> = match &mut self.method {
+            CoefficientMethod::Together(search) => match search.next(used.to_vec(), found, error) {
                 Some(next) => next.into_iter().map(Some).collect(),
                 None => return Tried::Obeyed,
             },
-            Way::Apart(searches) => searches
+            CoefficientMethod::Apart(searches) => searches
                 .iter_mut()
                 .zip(used.iter().zip(found))
                 .map(|(search, (used, found))| search.next(*used, *found))
@@ -74,7 +74,9 @@ impl CoefficientSearches {
         self.tried += 1;
         match self.tried {
             TOGETHER => {
-                self.way = Way::Apart(self.bounds.iter().map(|bounds| CoefficientSearch::new(*bounds)).collect());
+                self.method = CoefficientMethod::Apart(
+                    self.bounds.iter().map(|bounds| CoefficientSearch::new(*bounds)).collect(),
+                );
             }
             tried if tried > MOST => return Tried::Exhausted(tried),
             _ => {}
