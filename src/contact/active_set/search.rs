@@ -32,6 +32,8 @@ const RESTARTS: [usize; 2] = [20, 31];
 /// Iterations after which the tolerance of the states grows, and its growth per iteration.
 const STRICT_ITERATIONS: usize = 8;
 const GROWTH: f64 = 3.0;
+/// Change of a weight of the upwind differences that counts as none \[1].
+const SAME_WEIGHT: f64 = 4e-4;
 /// Largest difference between the rim angle and that of the linear problem, which weights it with the forces of the
 /// iterate before \[rad]. It tilts the gap by less than a tenth of a nanometre; ordinary steps differ by 4e-10.
 const ANGLE_TOLERANCE: f64 = 1e-8;
@@ -121,7 +123,7 @@ impl<'a> ActiveSet<'a> {
         self.guess_closed();
         let laws = FollowedLaws::begin(&mut self.lines);
         for line in &mut self.lines {
-            line.update_upwind();
+            line.begin_upwind();
             line.take_surface_angle();
             line.frame.rim_angle = line.predicted_angle();
         }
@@ -233,8 +235,9 @@ impl<'a> ActiveSet<'a> {
     /// True if the edges of the patches are settled. The weights of the present solution are kept if so: with weights
     /// that change from one coefficient to the next the slip would be no function of the coefficient.
     fn edges_settled(&mut self) -> bool {
-        let change = self.lines.iter_mut().map(ContactLine::update_upwind).fold(0.0, f64::max);
-        let settled = change <= self.problem.edge_tolerance;
+        let tolerance = self.problem.edge_tolerance;
+        let change = self.lines.iter_mut().map(|line| line.update_upwind(tolerance)).fold(0.0, f64::max);
+        let settled = change <= tolerance.min(SAME_WEIGHT);
         if settled {
             self.lines.iter_mut().for_each(|line| line.iterate.upwind.restore());
         }
