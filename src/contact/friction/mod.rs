@@ -19,10 +19,8 @@ mod slip;
 mod step;
 mod together;
 
-pub(super) use coefficient::CoefficientSearch;
 pub use heating::Heating;
 pub use law::FrictionLaw;
 pub(super) use searches::{CoefficientSearches, Tried};
 pub use slip::SlipDependence;
 pub use step::Friction;
-pub(super) use together::CoefficientsTogether;
