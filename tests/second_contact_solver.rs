@@ -176,6 +176,7 @@ impl ContactSolver for Hertz {
             friction: SolvedFriction {
                 coefficient: problem.line.friction.coefficient(slip),
                 tread_slip: slip,
+                law_slope: 0.0,
                 slip_speed: slip.abs(),
                 power: 0.0,
                 work: 0.0,

@@ -2,8 +2,10 @@
 
 mod common;
 
-use common::{model, prescribed, preset};
+use common::{model, prescribed, preset, vary};
 use std::sync::Arc;
+use wheelrail::config::ContactMethod;
+use wheelrail::contact::line::NodeStatus;
 use wheelrail::simulation::{Checkpoint, Drive, Inputs, Model, Outputs, Simulation, Vertical};
 
 type Field = fn(&mut Drive) -> &mut f64;
@@ -271,4 +273,53 @@ fn derivatives_of_patches_by_load_and_moment_are_those_of_the_repeated_step() {
         }
         println!("{name}: largest error {largest:.1e}");
     }
+}
+
+/// States of all nodes on all lines.
+fn node_states(simulation: &Simulation) -> Vec<NodeStatus> {
+    let lines = simulation.state().lines.iter();
+    lines.flat_map(|line| line.contact.solver.grid().map(|grid| grid.status.clone())).flatten().collect()
+}
+
+/// Several lines on the grid with everything varying: rounding of the forces that lines give to each other does not show.
+/// Measured: 5e-7; before motions were solved for as changes 200 of 1464 missed 1e-5.
+#[test]
+fn derivatives_on_fixed_nodes_with_everything_varying_are_those_of_the_repeated_step() {
+    let mut config = preset("railway_ellipse", 10);
+    config.solver.contact = ContactMethod::Grid;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    let mut again = Simulation::new(model.clone(), &inputs).unwrap();
+    let (mut largest, mut compared) = (0.0_f64, 0);
+    for k in 1..=25 {
+        vary(&mut inputs, 1e-3 * f64::from(k));
+        let before = simulation.checkpoint().clone();
+        simulation.advance(&inputs, 1e-3).unwrap();
+        let states = node_states(&simulation);
+        let varied = |input: &str| matches!(input, "load" | "moment" | "force" | "friction");
+        for (input, field, size) in INPUTS.into_iter().filter(|(input, ..)| k > 2 && varied(input)) {
+            let mut direction = Drive::default();
+            *field(&mut direction) = 1.0;
+            let difference = simulation.difference(&direction).unwrap();
+            let mut same = true;
+            let [low, high] = [-1e-5, 1e-5].map(|by| {
+                let mut inputs = inputs;
+                *field(&mut inputs.drive) += by * size;
+                again.recall(before.clone()).unwrap();
+                again.advance(&inputs, 1e-3).unwrap();
+                same &= node_states(&again) == states;
+                again.outputs().clone()
+            });
+            // Between other states of nodes the solution has a kink.
+            for (output, get, unit) in OUTPUTS.into_iter().filter(|_| same) {
+                let (found, expected) = (difference.quotient(get), (get(&high) - get(&low)) / (2e-5 * size));
+                let error = (found - expected).abs() / expected.abs().max(unit / size);
+                (largest, compared) = (largest.max(error), compared + 1);
+                assert!(error < 1e-5, "{k}: d {output} / d {input}: {found:e}, {expected:e}, {error:.1e}");
+            }
+        }
+    }
+    println!("largest error {largest:.1e} of {compared}");
+    assert!(compared > 900);
 }

@@ -303,7 +303,8 @@ pub struct ContactProblem<'a> {
     pub spin: Spin,
     /// Line load that scales tolerances [N/m].
     pub nominal_load: f64,
-    /// Largest change of the weights at the contact edges that counts as converged \[1].
+    /// Largest change of the weights at the contact edges over the search that counts as none, and half of the least that
+    /// counts in full \[1].
     pub edge_tolerance: f64,
     /// Layouts that follow the load, by which a solver may replace that at hand; `None`: there is only this one.
     pub layouts: Option<&'a dyn LayoutsOfLoad>,

@@ -66,6 +66,9 @@ pub struct SolvedFriction {
     /// Slip velocity that gave it: the mean over the patches, weighted with the pressure, of the velocity of the wheel
     /// surface relative to that of the rail, at the end of the step; positive in braking, zero without contact [m/s].
     pub tread_slip: f64,
+    /// Change of the excess of the coefficient over its law by the coefficient \[1], with which the search of the next step
+    /// begins; 0: it is not known.
+    pub law_slope: f64,
     /// Length of the mean slip velocity, along and across, that friction depends on [m/s].
     pub slip_speed: f64,
     /// Power that friction turns from mechanical energy into heat at the end of the step, net of the power that hot

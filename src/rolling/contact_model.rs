@@ -161,13 +161,17 @@ impl ContactModel {
             _ => self.patch.load_of(self.patch.load_laid_out(start)),
         };
         // More layouts count as iterations: they tell one branch from another.
-        let mut more = 0;
+        let (mut more, mut first) = (0, load);
         for _ in 0..MOST_LAYOUTS {
             self.patch.lay_out(load, found);
             let laid_out = self.solve_laid_out(step, start, (found, load), scratch);
             load = laid_out.map_err(|error| self.of_patch(error, load))?;
+            if more == 0 {
+                first = load;
+            }
             let next = self.patch.load_of(carried(found)).clamp(load / LARGEST_FACTOR, load * LARGEST_FACTOR);
-            if missed(load, next) <= SAME_LOAD {
+            let next = followed(first, next);
+            if missed(load, next) <= if more == 0 { 0.0 } else { SAME_LOAD } {
                 break;
             }
             (load, more) = (next, more + 1);
@@ -333,6 +337,12 @@ impl LayoutsOfLoad for Following<'_> {
 /// Relative difference of a load from that of a layout \[1]; zero where there is none.
 fn missed(load: f64, next: f64) -> f64 {
     if load > 0.0 { (next / load - 1.0).abs() } else { 0.0 }
+}
+
+/// Load for which lines are laid out that carry `next` in the layout of the load `first`: the latter within [`SAME_LOAD`],
+/// the former from twice as much on, and between them without a jump.
+fn followed(first: f64, next: f64) -> f64 {
+    first + (missed(first, next) / SAME_LOAD - 1.0).clamp(0.0, 1.0) * (next - first)
 }
 
 /// Linear answer of the bodies under a line.

@@ -73,6 +73,11 @@ impl LinearProblem<'_> {
         equation.constant + given.map(|axis| equation.motions[axis] * line.traction.rigid[axis]).sum::<f64>()
     }
 
+    /// Constant of an equation with all motions as they are.
+    pub fn left_over(equation: &Equation, line: &ContactLine) -> f64 {
+        equation.constant + equation.motions.dot(line.traction.rigid)
+    }
+
     /// Writes an equation of a line, with the coefficients `forces` of all ports of every line, to the row of a system;
     /// scales it to a largest coefficient of one.
     pub fn write(&self, line: &ContactLine, equation: &Equation, forces: &[Vec<f64>], row: (&mut [f64], &mut f64)) {

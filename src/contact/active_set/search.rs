@@ -2,13 +2,13 @@
 //!
 //! Unknown are the nodal forces of closed nodes and those rigid motions (V, U, Ω) that are not prescribed. Each
 //! iteration solves the linear problem of the present states and takes new states ([`super::states`]). Where the
-//! friction coefficient depends on the slip, a search around this iteration finds the one that belongs to its own slip
-//! ([`CoefficientSearch`]); each of its evaluations starts from the states found before.
+//! friction coefficient depends on the slip, it follows its law in the same iteration ([`super::coefficients`]).
 //!
 //! An iteration that stalls all the same is restarted as if all nodes had just closed ([`RESTARTS`]), and the tolerance
 //! within which a node keeps its state grows from iteration to iteration. In the end nodes change one by one ([`TOGETHER`]).
 
 use super::axes::Axes;
+use super::coefficients::{FollowedLaws, Obedience, Progress};
 use super::fast::LinearSolver;
 use super::guess::Guess;
 use super::linear::{Known, LinearProblem};
@@ -16,7 +16,6 @@ use super::states::{self, Rules};
 use super::unknowns::Unknowns;
 use crate::axes::Axis;
 use crate::contact::error::ContactError;
-use crate::contact::friction::CoefficientSearch;
 use crate::contact::line::contact_line::{ContactLine, LineScratch, LineStart};
 use crate::contact::line::state::NodeStatus;
 use crate::contact::line::{ContactGrid, exchange, finish, zone};
@@ -33,8 +32,8 @@ const RESTARTS: [usize; 2] = [20, 31];
 /// Iterations after which the tolerance of the states grows, and its growth per iteration.
 const STRICT_ITERATIONS: usize = 8;
 const GROWTH: f64 = 3.0;
-/// Friction coefficients tried: smooth laws need five, steep ones in long steps some tens.
-const MAX_COEFFICIENTS: usize = 150;
+/// Change of a weight of the upwind differences that counts as none \[1].
+const SAME_WEIGHT: f64 = 4e-4;
 /// Largest difference between the rim angle and that of the linear problem, which weights it with the forces of the
 /// iterate before \[rad]. It tilts the gap by less than a tenth of a nanometre; ordinary steps differ by 4e-10.
 const ANGLE_TOLERANCE: f64 = 1e-8;
@@ -122,20 +121,14 @@ impl<'a> ActiveSet<'a> {
             }
         }
         self.guess_closed();
+        let laws = FollowedLaws::begin(&mut self.lines);
         for line in &mut self.lines {
-            line.traction.friction.coefficient = line.problem.friction.coefficient(line.traction.friction.tread_slip);
-            line.update_upwind();
+            line.begin_upwind();
             line.take_surface_angle();
             line.frame.rim_angle = line.predicted_angle();
         }
-        let iterations = self.find_states()?;
-        for line in &mut self.lines {
-            line.traction.iterations = iterations;
-            line.traction.friction.tread_slip = states::mean_slip(line);
-        }
-        if self.lines.iter().any(|line| line.problem.friction.varies()) {
-            self.find_coefficients()?;
-        }
+        let iterations = self.find_states(laws)?;
+        self.lines.iter_mut().for_each(|line| line.traction.iterations = iterations);
         self.lines.iter().try_for_each(zone::check)?;
         self.lines.iter_mut().for_each(finish::finish);
         Ok(())
@@ -148,10 +141,14 @@ impl<'a> ActiveSet<'a> {
         guess.find(&mut self.lines, &self.axes, &rules, solver, rows);
     }
 
-    /// Finds the states of all nodes at the present friction coefficients; returns the iterations made.
-    fn find_states(&mut self) -> Result<usize, ContactError> {
-        let (mut settled, mut decided, mut balancing) = (false, 0, 0);
-        for iteration in 1..=MAX_ITERATIONS {
+    /// Finds the states of all nodes at the friction coefficients of their slips; returns the iterations until states were
+    /// settled at first.
+    fn find_states(&mut self, mut laws: FollowedLaws) -> Result<usize, ContactError> {
+        let (mut settled, mut first, mut decided, mut balancing) = (false, true, 0, 0);
+        // Iterations at the coefficients of settled states.
+        let mut iteration = 0;
+        while iteration < MAX_ITERATIONS {
+            iteration += 1;
             if RESTARTS.contains(&iteration) {
                 for line in &mut self.lines {
                     line.state.status.iter_mut().filter(|s| s.is_active()).for_each(|s| *s = NodeStatus::Stick);
@@ -163,41 +160,30 @@ impl<'a> ActiveSet<'a> {
                 self.lines.iter().any(|line| (line.frame.rim_angle - line.iterate.rim.value).abs() > ANGLE_TOLERANCE);
             let changed = self.update_states(iteration);
             // Once states and edges are settled, only motions and rim angle are refined: smooth functions of the data.
-            decided += usize::from(!settled);
+            decided += usize::from(first);
             settled = !changed && (settled || self.edges_settled());
+            first = first && !settled;
             let relieved = self.update_retarded().abs() > RETARDED_TOLERANCE * self.problem.nominal_load;
             let relieved = relieved && self.axes.seeks(Axis::Rotation);
-            if settled && !turned && !relieved && self.lines.iter().all(states::sticks) {
-                if balancing == MOST_BALANCING || self.turns_balance() {
-                    return Ok(decided);
+            let refined = settled && !turned && !relieved && self.lines.iter().all(states::sticks);
+            let progress = match settled {
+                true if refined => Progress::Refined,
+                true => Progress::Settled,
+                false if iteration <= STRICT_ITERATIONS => Progress::Searching,
+                false => continue,
+            };
+            match laws.follow(&mut self.lines, progress)? {
+                Obedience::Moved if settled => iteration = 0,
+                Obedience::Obeyed if refined => {
+                    if balancing == MOST_BALANCING || self.turns_balance() {
+                        return Ok(decided);
+                    }
+                    balancing += 1;
                 }
-                balancing += 1;
+                _ => {}
             }
         }
         Err(ContactError::NotConverged { iterations: MAX_ITERATIONS })
-    }
-
-    /// Finds the coefficients that the law gives to the slips of the states that they lead to. Each line has a search
-    /// of its own, which begins anew where the other lines have shifted its solution.
-    fn find_coefficients(&mut self) -> Result<(), ContactError> {
-        let begun = |line: &ContactLine| CoefficientSearch::new(line.problem.friction.bounds());
-        let mut searches: Vec<_> = self.lines.iter().map(begun).collect();
-        for _ in 0..MAX_COEFFICIENTS {
-            let mut found = true;
-            for (line, search) in self.lines.iter_mut().zip(&mut searches) {
-                let law = line.problem.friction.coefficient(line.traction.friction.tread_slip);
-                match search.next(line.traction.friction.coefficient, law) {
-                    Some(next) => (line.traction.friction.coefficient, found) = (next, false),
-                    None => *search = begun(line),
-                }
-            }
-            if found {
-                return Ok(());
-            }
-            self.find_states()?;
-            self.lines.iter_mut().for_each(|line| line.traction.friction.tread_slip = states::mean_slip(line));
-        }
-        Err(ContactError::NotConverged { iterations: MAX_COEFFICIENTS })
     }
 
     /// True if the moments balance with the lever arms of the present iterate, too: it was found with those before.
@@ -249,8 +235,9 @@ impl<'a> ActiveSet<'a> {
     /// True if the edges of the patches are settled. The weights of the present solution are kept if so: with weights
     /// that change from one coefficient to the next the slip would be no function of the coefficient.
     fn edges_settled(&mut self) -> bool {
-        let change = self.lines.iter_mut().map(ContactLine::update_upwind).fold(0.0, f64::max);
-        let settled = change <= self.problem.edge_tolerance;
+        let tolerance = self.problem.edge_tolerance;
+        let change = self.lines.iter_mut().map(|line| line.update_upwind(tolerance)).fold(0.0, f64::max);
+        let settled = change <= tolerance.min(SAME_WEIGHT);
         if settled {
             self.lines.iter_mut().for_each(|line| line.iterate.upwind.restore());
         }

@@ -44,7 +44,8 @@ fn begin<'a>(start: &ContactState, found: &'a mut ContactState) -> Result<LineSt
     history.copy_from(&start.history);
     *ports = start.ports;
     copy(&mut traction.port_forces, &start.traction.port_forces);
-    traction.friction.tread_slip = start.traction.friction.tread_slip;
+    let (friction, before) = (&mut traction.friction, &start.traction.friction);
+    (friction.tread_slip, friction.law_slope) = (before.tread_slip, before.law_slope);
     for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
         copy(ours, theirs);
     }

@@ -9,17 +9,18 @@
 //! | `step` | the coefficient in one contact problem: memory, bounds |
 //! | `coefficient` | search for the coefficient that the law gives to the slip that it causes |
 //! | `together` | that search for several lines at once |
+//! | `searches` | the search of one contact problem: together, else on each line |
 
 mod coefficient;
 mod heating;
 mod law;
+mod searches;
 mod slip;
 mod step;
 mod together;
 
-pub(super) use coefficient::CoefficientSearch;
 pub use heating::Heating;
 pub use law::FrictionLaw;
+pub(super) use searches::{CoefficientSearches, Tried};
 pub use slip::SlipDependence;
 pub use step::Friction;
-pub(super) use together::CoefficientsTogether;

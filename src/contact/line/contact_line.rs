@@ -163,11 +163,19 @@ impl<'a> ContactLine<'a> {
         self.traction.rigid.travel + self.rim_velocity() >= 0.0
     }
 
-    /// Takes the upwind differences of the present states and pressures; returns the largest change of their weights.
-    pub fn update_upwind(&mut self) -> f64 {
+    /// Begins with the upwind differences of the present states and pressures.
+    pub fn begin_upwind(&mut self) {
         let (grid, forces, to_right) = (self.grid, &self.traction.port_forces, self.upstream_right());
         let pressure = |i: usize| forces[grid.port(i) + 1] * grid.share(i);
-        self.iterate.upwind.update(&self.state.status, pressure, to_right)
+        self.iterate.upwind.begin(&self.state.status, pressure, to_right);
+    }
+
+    /// Takes the upwind differences of the present states and pressures where they are farther than a `tolerance` from those
+    /// of the beginning; returns the largest change of their weights.
+    pub fn update_upwind(&mut self, tolerance: f64) -> f64 {
+        let (grid, forces, to_right) = (self.grid, &self.traction.port_forces, self.upstream_right());
+        let pressure = |i: usize| forces[grid.port(i) + 1] * grid.share(i);
+        self.iterate.upwind.update(&self.state.status, pressure, to_right, tolerance)
     }
 
     /// Takes the forces of retarded layers in the present iterate; returns the change of their sum [N/m].

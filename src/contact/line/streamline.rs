@@ -66,11 +66,19 @@ impl UpwindWeights {
     }
 }
 
-/// Upwind differences of a line, and those of the iterate before.
+/// Upwind differences of a line.
 #[derive(Default)]
 pub struct UpwindRows {
     rows: Vec<UpwindWeights>,
+    /// Those of the iterate before.
     before: Vec<UpwindWeights>,
+    /// Those of the beginning of the search.
+    first: Vec<UpwindWeights>,
+}
+
+/// Largest difference of a weight.
+fn largest_change(a: &[UpwindWeights], b: &[UpwindWeights]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a.w1 - b.w1).abs()).fold(0.0, f64::max)
 }
 
 impl UpwindRows {
@@ -79,12 +87,30 @@ impl UpwindRows {
         self.rows[i]
     }
 
-    /// Takes those of the present states and pressures, see [`upwind_rows`]; returns the largest change of a weight.
-    pub fn update(&mut self, status: &[NodeStatus], pressure: impl Fn(usize) -> f64, to_right: bool) -> f64 {
+    /// Begins a search with those of the states and pressures, see [`upwind_rows`].
+    pub fn begin(&mut self, status: &[NodeStatus], pressure: impl Fn(usize) -> f64, to_right: bool) {
+        upwind_rows(status, pressure, to_right, &mut self.rows);
+        self.first.clone_from(&self.rows);
+    }
+
+    /// Takes those of the present states and pressures: as at the beginning where no weight is farther from that than the
+    /// `tolerance`, those of the iterate where one is twice as far, and between them without a jump. Returns the largest
+    /// change of a weight.
+    pub fn update(
+        &mut self,
+        status: &[NodeStatus],
+        pressure: impl Fn(usize) -> f64,
+        to_right: bool,
+        tolerance: f64,
+    ) -> f64 {
         std::mem::swap(&mut self.rows, &mut self.before);
         upwind_rows(status, pressure, to_right, &mut self.rows);
-        let pairs = self.rows.iter().zip(&self.before);
-        pairs.map(|(now, before)| (now.w1 - before.w1).abs()).fold(0.0, f64::max)
+        let share = (largest_change(&self.rows, &self.first) / tolerance - 1.0).clamp(0.0, 1.0);
+        for (row, first) in self.rows.iter_mut().zip(&self.first).filter(|_| share < 1.0) {
+            let w1 = first.w1 + share * (row.w1 - first.w1);
+            *row = UpwindWeights { w0: 1.0 - w1, w1 };
+        }
+        largest_change(&self.rows, &self.before)
     }
 
     /// Returns to those of before the last update.

@@ -4,34 +4,25 @@ use super::contact::SeriesContact;
 use super::series_line::SeriesLine;
 use super::state::Tractions;
 use crate::contact::error::ContactError;
-use crate::contact::friction::{CoefficientSearch, CoefficientsTogether};
+use crate::contact::friction::{CoefficientSearches, Tried};
 
 /// Error of a contact whose slip tells nothing about friction \[1].
 const ROUGHEST: f64 = 0.1;
-/// Friction coefficients that are tried, and those of all lines together.
-const MOST: usize = 200;
-const TOGETHER: usize = 50;
 /// Iterations of a contact whose friction varies over those of one whose friction does not.
 const FURTHER: usize = 10;
 
-/// The searches on all lines; `None`: the slip does not change friction.
+/// The search on all lines; `None`: the slip does not change friction.
 pub struct FrictionSearches {
-    searches: Option<Searches>,
-    tried: usize,
-}
-
-/// A search on all lines together, and in its place one on each where that has found nothing.
-enum Searches {
-    Together(CoefficientsTogether),
-    Apart(Vec<CoefficientSearch>),
+    searches: Option<CoefficientSearches>,
 }
 
 impl FrictionSearches {
     pub fn new(contact: &SeriesContact) -> Self {
-        let varies = contact.lines.iter().any(|line| line.problem.line.friction.varies());
-        let slopes = contact.lines.iter().map(|line| line.law_slope);
-        let searches = varies.then(|| Searches::Together(CoefficientsTogether::new(bounds(contact), slopes)));
-        Self { searches, tried: 0 }
+        let lines = || contact.lines.iter();
+        let bounds = || lines().map(|line| line.problem.line.friction.bounds()).collect();
+        let varies = lines().any(|line| line.problem.line.friction.varies());
+        let searches = varies.then(|| CoefficientSearches::new(bounds(), lines().map(|line| line.law_slope)));
+        Self { searches }
     }
 
     /// Iterations of the contact at most, of which there are `most` where friction does not vary.
@@ -42,7 +33,7 @@ impl FrictionSearches {
     /// Gives lines coefficients nearer to the laws of their slips after an iteration that left a relative `error`; returns
     /// the largest relative distance from a law that one had.
     pub fn follow(&mut self, contact: &mut SeriesContact, error: f64) -> Result<f64, ContactError> {
-        if error > ROUGHEST || !matches!(self.searches, Some(Searches::Together(_))) {
+        if error > ROUGHEST || !self.searches.as_ref().is_some_and(CoefficientSearches::follows) {
             return Ok(0.0);
         }
         contact.find_slips();
@@ -52,10 +43,10 @@ impl FrictionSearches {
     /// True if the friction of a contact that has settled obeys the laws of its slips, too; `false`: it has to settle with
     /// other coefficients.
     pub fn settle(&mut self, contact: &mut SeriesContact) -> Result<bool, ContactError> {
-        match self.searches {
+        match &self.searches {
+            Some(searches) if !searches.follows() => Ok(self.improve(contact, 0.0)? == 0.0),
             // It has followed so far.
-            None | Some(Searches::Together(_)) => Ok(true),
-            Some(Searches::Apart(_)) => Ok(self.improve(contact, 0.0)? == 0.0),
+            _ => Ok(true),
         }
     }
 
@@ -64,18 +55,16 @@ impl FrictionSearches {
         let used: Vec<f64> = contact.lines.iter().map(|line| line.friction).collect();
         let law = |line: &SeriesLine| line.problem.line.friction.coefficient(line.slip_speed());
         let found: Vec<f64> = contact.lines.iter().map(law).collect();
-        let next: Vec<Option<f64>> = match searches {
-            Searches::Together(search) => {
-                let next = search.next(used.clone(), &found, error);
-                contact.lines.iter_mut().enumerate().for_each(|(k, line)| line.law_slope = search.slope(k));
-                let of = |k: usize| next.as_ref().map(|next| next[k]);
-                (0..used.len()).map(of).collect()
-            }
-            Searches::Apart(searches) => {
-                let all = searches.iter_mut().zip(used.iter().zip(&found));
-                all.map(|(search, (used, found))| search.next(*used, *found)).collect()
+        let next = match searches.take(&used, &found, error) {
+            Tried::Obeyed => return Ok(0.0),
+            Tried::Next(next) => next,
+            Tried::Exhausted(_) => {
+                return Err(ContactError::Unsuited { reason: "no friction coefficient belongs to its slip" });
             }
         };
+        for (k, line) in contact.lines.iter_mut().enumerate() {
+            line.law_slope = searches.slope(k).unwrap_or(line.law_slope);
+        }
         let mut distance = 0.0_f64;
         for (((line, next), used), found) in contact.lines.iter_mut().zip(&next).zip(&used).zip(&found) {
             let Some(next) = next else { continue };
@@ -83,23 +72,10 @@ impl FrictionSearches {
             line.take_friction(*next);
         }
         if distance > 0.0 {
-            self.tried += 1;
             contact.displace();
         }
-        if self.tried == TOGETHER {
-            let apart = bounds(contact).into_iter().map(CoefficientSearch::new).collect();
-            self.searches = Some(Searches::Apart(apart));
-        }
-        match self.tried > MOST {
-            true => Err(ContactError::Unsuited { reason: "no friction coefficient belongs to its slip" }),
-            false => Ok(distance),
-        }
+        Ok(distance)
     }
-}
-
-/// Smallest and largest coefficient of every line.
-fn bounds(contact: &SeriesContact) -> Vec<[f64; 2]> {
-    contact.lines.iter().map(|line| line.problem.line.friction.bounds()).collect()
 }
 
 impl SeriesContact<'_> {

@@ -44,7 +44,7 @@ struct LineEquations {
     share: f64,
     /// Coefficients of its own forces.
     own: DenseSystem,
-    /// Own forces without those of other lines and motions, and their change with the motions.
+    /// Own forces without those of other lines at the present motions, and their change with the motions.
     alone: Vec<f64>,
     by_motions: [Vec<f64>; Axis::COUNT],
     /// Coefficients of other lines' forces at the ports of the window, row by row.
@@ -72,7 +72,10 @@ struct MotionBalances {
     /// Coefficients of the motions once the forces are eliminated.
     system: DenseSystem,
     known: [f64; Axis::COUNT],
-    values: [f64; Axis::COUNT],
+    /// Motions of the iterate before, and their changes: apart from each other, velocities of hub and rim alone would ask
+    /// for forces thousands of times as large as those that are sought, and rounding with them.
+    present: [f64; Axis::COUNT],
+    changes: [f64; Axis::COUNT],
 }
 
 impl LineByLine {
@@ -123,7 +126,8 @@ impl LineByLine {
             }
             let scale = scale(coefficients);
             equations.iter_mut().for_each(|line| line.balances[a].iter_mut().for_each(|value| *value *= scale));
-            motions.known[a] = -problem.constant(&balance, &lines[0]) * scale;
+            motions.known[a] = -LinearProblem::left_over(&balance, &lines[0]) * scale;
+            motions.present[a] = lines[0].traction.rigid[axis];
         }
         motions.system.factorise()
     }
@@ -149,7 +153,8 @@ impl LineByLine {
             solved = solved && self.answer(grid, unknowns, &forces, true, &mut change);
             std::mem::swap(&mut forces, &mut change);
         }
-        forces.extend_from_slice(&self.motions.values[..self.motions.count]);
+        let MotionBalances { count, present, changes, .. } = &self.motions;
+        forces.extend(present.iter().zip(changes).take(*count).map(|(present, change)| present + change));
         (self.unknowns, self.change) = (forces, change);
         solved
     }
@@ -174,8 +179,8 @@ impl LineByLine {
             rest = others;
         }
         let moments: Vec<_> = lines.iter().map(|line| line.moments).collect();
-        motions.values = if known { motions.known } else { [0.0; Axis::COUNT] };
-        let values = &mut motions.values[..motions.count];
+        motions.changes = if known { motions.known } else { [0.0; Axis::COUNT] };
+        let values = &mut motions.changes[..motions.count];
         let (mut rest, mut finite) = (&mut *forces, true);
         for (line, own) in lines.iter_mut().zip(&unknowns.lines) {
             let (forces, others) = rest.split_at_mut(own.len());
@@ -227,7 +232,7 @@ impl LineEquations {
             own.write(coefficients, forces, line.grid);
             motions.iter_mut().zip(axes).for_each(|(value, &axis)| *value = equation.motions[axis]);
             let scale = scale(&mut self.row);
-            self.alone[r] = -scale * problem.constant(&equation, line);
+            self.alone[r] = -scale * LinearProblem::left_over(&equation, line);
             self.own.row(r).0.copy_from_slice(&self.row[..size]);
             self.by_motions.iter_mut().zip(&self.row[size..]).for_each(|(by_motion, value)| by_motion[r] = *value);
             self.shared.extend(others[window.clone()].iter().map(|by_all| scale * by_all));
