@@ -1,0 +1,168 @@
+//! Two kinds of vibration modes, those that are even in a mirror and those that are odd.
+//!
+//! The stream and its acceleration couple modes of different kinds only, its square couples modes of the same kind. With all
+//! modes of a kind one after the other, half of such a matrix is zero and stays out of products.
+
+use super::damping::ModeCharacter;
+use super::reduction::ReducedBasis;
+use crate::linalg::vectorised;
+use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
+
+/// Numbers of modes of two kinds, of which one comes first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct ModeKinds {
+    first: usize,
+    all: usize,
+}
+
+/// Modes that a product is taken for, and modes from which it comes.
+type Coupled = (Range<usize>, Range<usize>);
+
+impl ModeKinds {
+    /// A basis with its modes kind by kind, in each as before; all are of one kind where a matrix couples others.
+    ///
+    /// The surface has no part in it, so that bodies that differ in their ports have the same coordinates.
+    pub fn sorted(basis: ReducedBasis) -> (Self, ReducedBasis) {
+        let all = basis.modes();
+        let [first, second]: [Vec<usize>; 2] = [true, false]
+            .map(|own| (0..all).filter(|&i| (i == 0 || basis.ale_inertia[(0, i)] != 0.0) == own).collect());
+        let ReducedBasis { gyroscopic, ale_inertia, damping, character, .. } = &basis;
+        let zero = |matrix: &DMatrix<f64>, rows: &[usize], columns: &[usize]| {
+            rows.iter().all(|&i| columns.iter().all(|&j| matrix[(i, j)] == 0.0))
+        };
+        let odd = |matrix| zero(matrix, &first, &first) && zero(matrix, &second, &second);
+        let even = |matrix| zero(matrix, &first, &second) && zero(matrix, &second, &first);
+        if damping.is_some() || !(odd(gyroscopic) && odd(&character.transport) && even(ale_inertia)) {
+            return (Self { first: all, all }, basis);
+        }
+        let order: Vec<usize> = first.iter().chain(&second).copied().collect();
+        (Self { first: first.len(), all }, in_order(&basis, &order))
+    }
+
+    fn kinds(self) -> [Range<usize>; 2] {
+        [0..self.first, self.first..self.all]
+    }
+
+    /// Modes that a matrix couples which is even.
+    fn within(self) -> [Coupled; 2] {
+        self.kinds().map(|kind| (kind.clone(), kind))
+    }
+
+    /// Modes that a matrix couples which is odd; all where there is one kind.
+    pub fn across(self) -> [Coupled; 2] {
+        let [first, second] = self.kinds();
+        if second.is_empty() { self.within() } else { [(first.clone(), second.clone()), (second, first)] }
+    }
+
+    /// `out ← out + factor · A x` for an even matrix.
+    pub fn add_even(self, factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
+        self.add(self.within(), factor, a, x, out);
+    }
+
+    /// `out ← out + factor · A x` for an odd matrix.
+    pub fn add_odd(self, factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
+        self.add(self.across(), factor, a, x, out);
+    }
+
+    fn add(self, coupled: [Coupled; 2], factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
+        for (rows, columns) in coupled.into_iter().filter(|(rows, columns)| !rows.is_empty() && !columns.is_empty()) {
+            let block = &a.as_slice()[columns.start * self.all + rows.start..];
+            let (x, out) = (&x.as_slice()[columns], &mut out.as_mut_slice()[rows]);
+            vectorised::add_columns(factor, block, self.all, x, out);
+        }
+    }
+
+    /// `out ← out + factor · A x` at the modes `rows` for an odd matrix with the given transpose, whose modes of the other
+    /// kind are `columns`.
+    pub fn add_rows(
+        self,
+        factor: f64,
+        transposed: &DMatrix<f64>,
+        (rows, columns): Coupled,
+        x: &DVector<f64>,
+        out: &mut [f64],
+    ) {
+        if rows.is_empty() || columns.is_empty() {
+            return;
+        }
+        let block = &transposed.as_slice()[rows.start * self.all + columns.start..];
+        vectorised::add_products(factor, block, self.all, &x.as_slice()[columns], out);
+    }
+}
+
+/// A basis whose modes come in another order.
+fn in_order(basis: &ReducedBasis, order: &[usize]) -> ReducedBasis {
+    let columns = |matrix: &DMatrix<f64>| matrix.select_columns(order);
+    let both = |matrix: &DMatrix<f64>| matrix.select_columns(order).select_rows(order);
+    let values = |vector: &DVector<f64>| vector.select_rows(order);
+    let character = &basis.character;
+    ReducedBasis {
+        squared_frequencies: values(&basis.squared_frequencies),
+        shapes: columns(&basis.shapes),
+        rigid: basis.rigid.select_rows(order),
+        centrifugal: values(&basis.centrifugal),
+        gyroscopic: both(&basis.gyroscopic),
+        ale_inertia: both(&basis.ale_inertia),
+        damping: basis.damping.as_ref().map(both),
+        character: ModeCharacter {
+            transport: both(&character.transport),
+            diameters: values(&character.diameters),
+            circumferential: values(&character.circumferential),
+        },
+        carried: basis.carried.as_ref().map(columns),
+        ..basis.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics::testing::paper_d;
+    use crate::mechanics::{rail_system, wheel_system};
+
+    /// Products with halves of the matrices of both bodies are those with the whole ones, and each kind is a real part.
+    #[test]
+    fn halves_of_the_matrices_of_the_stream_act_as_the_whole_ones() {
+        let config = paper_d(4);
+        for system in [wheel_system(&config).unwrap(), rail_system(&config).unwrap()] {
+            let whole = ReducedBasis::compute(&system, 21, &mut |_| {}).unwrap();
+            let (kinds, basis) = ModeKinds::sorted(whole.clone());
+            assert!(kinds.first > 5 && kinds.first < 16, "{kinds:?}");
+            let mut squares: Vec<f64> = basis.squared_frequencies.iter().copied().collect();
+            squares.sort_by(f64::total_cmp);
+            assert_eq!(squares, whole.squared_frequencies.as_slice());
+            let x = DVector::from_fn(21, |i, _| (1.0 + i as f64).sin());
+            let apart = |found: DVector<f64>, matrix: &DMatrix<f64>| {
+                let exact = matrix * &x * 3.0;
+                (found - &exact).amax() / exact.amax()
+            };
+            let mut out = [(); 3].map(|()| DVector::zeros(21));
+            kinds.add_odd(3.0, &basis.gyroscopic, &x, &mut out[0]);
+            kinds.add_even(3.0, &basis.ale_inertia, &x, &mut out[1]);
+            let (transport, mut whole) = (&basis.character.transport, out[2].clone());
+            for (rows, columns) in kinds.across() {
+                let part = &mut whole.as_mut_slice()[rows.clone()];
+                kinds.add_rows(3.0, &transport.transpose(), (rows, columns), &x, part);
+            }
+            let [gyroscopic, ale_inertia, _] = out;
+            let found = [(gyroscopic, &basis.gyroscopic), (ale_inertia, &basis.ale_inertia), (whole, transport)];
+            let apart = found.map(|(found, matrix)| apart(found, matrix));
+            println!("{kinds:?}: {apart:?} apart");
+            assert!(apart.iter().all(|apart| *apart < 1e-13));
+        }
+    }
+
+    /// A body without a mirror keeps its modes as they are.
+    #[test]
+    fn modes_that_are_neither_even_nor_odd_are_of_one_kind() {
+        let mut basis = ReducedBasis::compute(&rail_system(&paper_d(4)).unwrap(), 8, &mut |_| {}).unwrap();
+        basis.gyroscopic[(2, 2)] = 1.0;
+        let (kinds, same) = ModeKinds::sorted(basis.clone());
+        assert_eq!((kinds, &same), (ModeKinds { first: 8, all: 8 }, &basis));
+        let x = DVector::from_fn(8, |i, _| (1.0 + i as f64).cos());
+        let mut found = DVector::zeros(8);
+        kinds.add_odd(1.0, &basis.gyroscopic, &x, &mut found);
+        assert!((found - &basis.gyroscopic * x).amax() < 1e-13 * basis.gyroscopic.amax());
+    }
+}
