@@ -266,13 +266,17 @@ pub fn smear(x: &[f64], values: &mut [f64], reach: f64) {
     for (ends, v) in segments(x, values) {
         below.push(below[below.len() - 1] + 0.5 * (ends[1] - ends[0]) * (v[0] + v[1]));
     }
-    let integral = |at: f64| {
+    // Both ends of the stretch ascend with its middle: `next` is the first node beyond.
+    let integral = |at: f64, next: &mut usize| {
         let inside = at.clamp(first, last);
-        let node = x.partition_point(|&node| node <= inside).max(1) - 1;
-        let mean = 0.5 * (values[node] + interpolate(x, values, inside));
-        below[node] + (inside - x[node]) * mean + (at - inside) * interpolate(x, values, at)
+        *next += x[*next..].iter().take_while(|&&node| node <= inside).count();
+        let node = (*next).max(1) - 1;
+        let value = between(x, values, inside, *next);
+        below[node] + (inside - x[node]) * (0.5 * (values[node] + value)) + (at - inside) * value
     };
-    let means: Vec<f64> = x.iter().map(|&x| (integral(x + reach) - integral(x - reach)) / (2.0 * reach)).collect();
+    let [mut low, mut high] = [0; 2];
+    let mean = |&x: &f64| (integral(x + reach, &mut high) - integral(x - reach, &mut low)) / (2.0 * reach);
+    let means: Vec<f64> = x.iter().map(mean).collect();
     values.copy_from_slice(&means);
 }
 

@@ -2,6 +2,7 @@
 
 use super::MechanicsError;
 use super::damping::ModeCharacter;
+use super::kinds::ModeKinds;
 use super::shapes::{Shapes, StaticPart};
 use super::system::BodySystem;
 use crate::axes::Axis;
@@ -14,7 +15,8 @@ use std::ops::Range;
 /// Constant data of a reduced body with `m` modes and `n` surface nodes, per metre of width.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReducedBasis {
-    /// `Ω²` [rad²/s²], ascending, `m`.
+    /// `Ω²` [rad²/s²], `m`: those of even modes and those of odd ones one after the other, ascending; where modes are neither,
+    /// all ascending.
     pub squared_frequencies: DVector<f64>,
     /// Modes on the surface `Φ_s`, `2n × m` [√(m/kg)].
     #[serde(deserialize_with = "super::rectangle::deserialize")]
@@ -109,7 +111,7 @@ impl ReducedBasis {
             centrifugal,
         };
         progress(1.0);
-        Ok(basis)
+        Ok(ModeKinds::sorted(basis).1)
     }
 
     /// This body with only the surface components `ports`.

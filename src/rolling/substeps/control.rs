@@ -159,12 +159,14 @@ mod tests {
     fn finest(dented: bool, dt: f64, time: f64) -> f64 {
         let tuning = Tuning { tolerance: TOLERANCE, ..Tuning::default() };
         let mut control = Control::new(&tuning, StepControl::default());
+        let mut found = Found::default();
+        found.dented = dented;
         for _ in 0..(time / dt).round() as usize {
-            control.grows(&Found { dented, ..Found::default() }, dt);
+            control.grows(&found, dt);
         }
-        let wrong = Found { error: 100.0 * TOLERANCE, first: true, ..Found::default() };
+        (found.error, found.first) = (100.0 * TOLERANCE, true);
         let mut tried = 1e-3;
-        while control.judge(&wrong, tried, true) == Verdict::TooLong {
+        while control.judge(&found, tried, true) == Verdict::TooLong {
             tried *= 0.5;
         }
         tried
