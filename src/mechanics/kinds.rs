@@ -3,8 +3,6 @@
 //! The stream and its acceleration couple modes of different kinds only, its square couples modes of the same kind. With all
 //! modes of a kind one after the other, half of such a matrix is zero and stays out of products.
 
-use super::damping::ModeCharacter;
-use super::reduction::ReducedBasis;
 use crate::linalg::vectorised;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
@@ -20,25 +18,26 @@ pub(super) struct ModeKinds {
 type Coupled = (Range<usize>, Range<usize>);
 
 impl ModeKinds {
-    /// A basis with its modes kind by kind, in each as before; all are of one kind where a matrix couples others.
-    ///
-    /// The surface has no part in it, so that bodies that differ in their ports have the same coordinates.
-    pub fn sorted(basis: ReducedBasis) -> (Self, ReducedBasis) {
-        let all = basis.modes();
-        let [first, second]: [Vec<usize>; 2] = [true, false]
-            .map(|own| (0..all).filter(|&i| (i == 0 || basis.ale_inertia[(0, i)] != 0.0) == own).collect());
-        let ReducedBasis { gyroscopic, ale_inertia, damping, character, .. } = &basis;
+    /// Modes that are all of one kind.
+    pub fn one(all: usize) -> Self {
+        Self { first: all, all }
+    }
+
+    /// Kinds of the modes that an `even` matrix and `odd` ones couple, and the modes kind by kind, in each as they come; all
+    /// are of one kind where a matrix couples others.
+    pub fn of(even: &DMatrix<f64>, odd: &[&DMatrix<f64>]) -> (Self, Vec<usize>) {
+        let all = even.nrows();
+        let [first, second]: [Vec<usize>; 2] =
+            [true, false].map(|own| (0..all).filter(|&i| (i == 0 || even[(0, i)] != 0.0) == own).collect());
         let zero = |matrix: &DMatrix<f64>, rows: &[usize], columns: &[usize]| {
             rows.iter().all(|&i| columns.iter().all(|&j| matrix[(i, j)] == 0.0))
         };
-        let odd = |matrix| zero(matrix, &first, &first) && zero(matrix, &second, &second);
-        let even = |matrix| zero(matrix, &first, &second) && zero(matrix, &second, &first);
-        if damping.is_some() || !(odd(gyroscopic) && odd(&character.transport) && even(ale_inertia)) {
-            return (Self { first: all, all }, basis);
+        let apart = zero(even, &first, &second) && zero(even, &second, &first);
+        if apart && odd.iter().all(|odd| zero(odd, &first, &first) && zero(odd, &second, &second)) {
+            (Self { first: first.len(), all }, first.into_iter().chain(second).collect())
+        } else {
+            (Self::one(all), (0..all).collect())
         }
-        let order: Vec<usize> = first.iter().chain(&second).copied().collect();
-        let kinds = Self { first: first.len(), all };
-        if order.is_sorted() { (kinds, basis) } else { (kinds, in_order(&basis, &order)) }
     }
 
     fn kinds(self) -> [Range<usize>; 2] {
@@ -92,35 +91,11 @@ impl ModeKinds {
     }
 }
 
-/// A basis whose modes come in another order.
-fn in_order(basis: &ReducedBasis, order: &[usize]) -> ReducedBasis {
-    let columns = |matrix: &DMatrix<f64>| matrix.select_columns(order);
-    let both = |matrix: &DMatrix<f64>| matrix.select_columns(order).select_rows(order);
-    let values = |vector: &DVector<f64>| vector.select_rows(order);
-    let character = &basis.character;
-    ReducedBasis {
-        squared_frequencies: values(&basis.squared_frequencies),
-        shapes: columns(&basis.shapes),
-        rigid: basis.rigid.select_rows(order),
-        centrifugal: values(&basis.centrifugal),
-        gyroscopic: both(&basis.gyroscopic),
-        ale_inertia: both(&basis.ale_inertia),
-        damping: basis.damping.as_ref().map(both),
-        character: ModeCharacter {
-            transport: both(&character.transport),
-            diameters: values(&character.diameters),
-            circumferential: values(&character.circumferential),
-        },
-        carried: basis.carried.as_ref().map(columns),
-        ..basis.clone()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mechanics::testing::paper_d;
-    use crate::mechanics::{rail_system, wheel_system};
+    use crate::mechanics::{ReducedBasis, rail_system, wheel_system};
 
     /// Products with halves of the matrices of both bodies are those with the whole ones, and each kind is a real part.
     #[test]
@@ -128,13 +103,13 @@ mod tests {
         let config = paper_d(4);
         for system in [wheel_system(&config).unwrap(), rail_system(&config).unwrap()] {
             let sorted = ReducedBasis::compute(&system, 21, &mut |_| {}).unwrap();
-            let (kinds, basis) = ModeKinds::sorted(sorted.clone());
+            let (kinds, basis) = sorted.clone().by_kinds();
             assert!(kinds.first > 5 && kinds.first < 16 && sorted == basis, "{kinds:?}");
             let squares = basis.squared_frequencies.as_slice();
             assert!(kinds.kinds().into_iter().all(|kind| squares[kind].is_sorted()));
             // In any order, modes are found kind by kind.
             let mixed: Vec<usize> = (0..21).map(|i| 8 * i % 21).collect();
-            let (again, of_mixed) = ModeKinds::sorted(in_order(&basis, &mixed));
+            let (again, of_mixed) = basis.in_order(&mixed).by_kinds();
             assert!(again == kinds && of_mixed.gyroscopic.amax() == basis.gyroscopic.amax());
             let x = DVector::from_fn(21, |i, _| (1.0 + i as f64).sin());
             let apart = |found: DVector<f64>, matrix: &DMatrix<f64>| {
@@ -162,8 +137,8 @@ mod tests {
     fn modes_that_are_neither_even_nor_odd_are_of_one_kind() {
         let mut basis = ReducedBasis::compute(&rail_system(&paper_d(4)).unwrap(), 8, &mut |_| {}).unwrap();
         basis.gyroscopic[(2, 2)] = 1.0;
-        let (kinds, same) = ModeKinds::sorted(basis.clone());
-        assert_eq!((kinds, &same), (ModeKinds { first: 8, all: 8 }, &basis));
+        let (kinds, same) = basis.clone().by_kinds();
+        assert_eq!((kinds, &same), (ModeKinds::one(8), &basis));
         let x = DVector::from_fn(8, |i, _| (1.0 + i as f64).cos());
         let mut found = DVector::zeros(8);
         kinds.add_odd(1.0, &basis.gyroscopic, &x, &mut found);

@@ -94,7 +94,7 @@ struct Factorised {
 impl ReducedBody {
     /// A body of these modes; `centrifugal`: with the load of the spinning wheel.
     pub fn new(basis: ReducedBasis, centrifugal: bool, damping: &BodyDamping) -> Self {
-        let (kinds, basis) = ModeKinds::sorted(basis);
+        let (kinds, basis) = basis.by_kinds();
         let (squares, character) = (&basis.squared_frequencies, &basis.character);
         let modal = (!damping.is_none()).then(|| ModalRates {
             rates: damping.modal(squares, character) + squares.map(|w| damping.mass + damping.stiffness * w),

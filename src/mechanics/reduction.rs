@@ -111,7 +111,43 @@ impl ReducedBasis {
             centrifugal,
         };
         progress(1.0);
-        Ok(ModeKinds::sorted(basis).1)
+        Ok(basis.by_kinds().1)
+    }
+
+    /// The same with its modes kind by kind.
+    ///
+    /// The surface has no part in it, so that bodies that differ in their ports have the same coordinates.
+    pub(super) fn by_kinds(self) -> (ModeKinds, Self) {
+        if self.damping.is_some() {
+            return (ModeKinds::one(self.modes()), self);
+        }
+        let (kinds, order) = ModeKinds::of(&self.ale_inertia, &[&self.gyroscopic, &self.character.transport]);
+        let ordered = if order.is_sorted() { self } else { self.in_order(&order) };
+        (kinds, ordered)
+    }
+
+    /// The same with its modes in another order.
+    pub(super) fn in_order(&self, order: &[usize]) -> Self {
+        let columns = |matrix: &DMatrix<f64>| matrix.select_columns(order);
+        let both = |matrix: &DMatrix<f64>| matrix.select_columns(order).select_rows(order);
+        let values = |vector: &DVector<f64>| vector.select_rows(order);
+        let character = &self.character;
+        ReducedBasis {
+            squared_frequencies: values(&self.squared_frequencies),
+            shapes: columns(&self.shapes),
+            rigid: self.rigid.select_rows(order),
+            centrifugal: values(&self.centrifugal),
+            gyroscopic: both(&self.gyroscopic),
+            ale_inertia: both(&self.ale_inertia),
+            damping: self.damping.as_ref().map(both),
+            character: ModeCharacter {
+                transport: both(&character.transport),
+                diameters: values(&character.diameters),
+                circumferential: values(&character.circumferential),
+            },
+            carried: self.carried.as_ref().map(columns),
+            ..self.clone()
+        }
     }
 
     /// This body with only the surface components `ports`.
