@@ -4,8 +4,7 @@
 //! images, odd ones become negative, so that `Σ φ φᵀ / a` between two places of the same half is `E + O`, and between one
 //! of them and the image of the other `E − O`, up to signs, with the sums E of the even and O of the odd modes.
 
-use crate::linalg::Update;
-use crate::linalg::vectorised::multiply_transposed;
+use super::reduction::scale_columns;
 use nalgebra::{DMatrix, DVector};
 
 /// Difference of a mode from its image that is round-off, relative to its largest value \[1].
@@ -26,50 +25,23 @@ pub struct MirroredModes {
 struct ModeHalf {
     /// Numbers among all modes.
     numbers: Vec<usize>,
-    /// Values of all modes, filled up to a number of [`PADDING`] with zeros, component by component.
-    rows: Vec<f64>,
-    /// Length of a row.
-    width: usize,
+    /// Components by modes, and transposed.
+    shapes: DMatrix<f64>,
+    transposed: DMatrix<f64>,
 }
-
-/// Divisor of the length of rows.
-const PADDING: usize = 4;
-/// Rows of a symmetric product that are computed together.
-const ROWS: usize = 16;
 
 impl ModeHalf {
     /// The modes with the given `numbers` of the surface `shapes`.
     fn new(numbers: Vec<usize>, shapes: &DMatrix<f64>) -> Self {
-        let (half, width) = (2 * (shapes.nrows() / 2).div_ceil(2), numbers.len().max(1).next_multiple_of(PADDING));
-        let value = |i: usize, k: usize| numbers.get(k).map_or(0.0, |&mode| shapes[(i, mode)]);
-        let rows = (0..half).flat_map(|i| (0..width).map(move |k| (i, k))).map(|(i, k)| value(i, k)).collect();
-        Self { numbers, rows, width }
+        let half = 2 * (shapes.nrows() / 2).div_ceil(2);
+        let shapes = DMatrix::from_fn(half, numbers.len(), |i, k| shapes[(i, numbers[k])]);
+        Self { numbers, transposed: shapes.transpose(), shapes }
     }
 
-    /// Sum of their flexibilities on this half, each times its weight among those of all modes: a symmetric matrix, of which
-    /// the lower half is computed and mirrored.
+    /// Sum of their flexibilities on this half, each times its weight among those of all modes.
     fn flexibility(&self, weights: &DVector<f64>) -> DMatrix<f64> {
-        let Self { numbers, rows, width } = self;
-        let half = rows.len() / width;
-        let mut own: Vec<f64> = numbers.iter().map(|&mode| weights[mode]).collect();
-        own.resize(*width, 0.0);
-        let mut weighted = rows.clone();
-        for row in weighted.chunks_exact_mut(*width) {
-            row.iter_mut().zip(&own).for_each(|(value, weight)| *value *= weight);
-        }
-        let mut out = DMatrix::zeros(half, half);
-        for first in (0..half).step_by(ROWS) {
-            let end = (first + ROWS).min(half);
-            // Rows of the lower half are columns of the upper one.
-            let (part, target) = (&weighted[first * width..end * width], &mut out.as_mut_slice()[first * half..]);
-            multiply_transposed(part, &rows[..end * width], *width, target, half, Update::Replace);
-        }
-        let all = out.as_mut_slice();
-        for j in 0..half {
-            let (before, own) = all.split_at_mut(j * half);
-            before.chunks_exact_mut(half.max(1)).zip(own).for_each(|(column, entry)| column[j] = *entry);
-        }
-        out
+        let own = DVector::from_iterator(self.numbers.len(), self.numbers.iter().map(|&k| weights[k]));
+        symmetric_product(&scale_columns(&self.shapes, &own), &self.transposed)
     }
 }
 
@@ -158,7 +130,7 @@ mod tests {
             };
             let shapes = DMatrix::from_fn(n, 5, mirrored);
             let weights = DVector::from_fn(5, |k, _| 1.0 + k as f64);
-            let whole = crate::mechanics::reduction::scale_columns(&shapes, &weights) * shapes.transpose();
+            let whole = scale_columns(&shapes, &weights) * shapes.transpose();
             let found = MirroredModes::new(&shapes).unwrap().flexibility(&weights);
             let apart = (found - &whole).amax() / whole.amax();
             println!("{nodes} nodes: {apart:.1e} apart");
