@@ -134,10 +134,16 @@ impl Piecewise {
 
     /// Replaces `out` by the values at ascending positions, see [`Self::at`].
     pub fn sample(&self, at: &[f64], out: &mut Vec<f64>) {
-        resample(&self.x, &self.value, at, out);
-        let (first, last) = (self.x.first().copied(), self.x.last().copied());
-        let inside = |x: f64| first.is_some_and(|first| x >= first) && last.is_some_and(|last| x <= last);
-        out.iter_mut().zip(at).filter(|(_, x)| !inside(**x)).for_each(|(value, _)| *value = 0.0);
+        let ends = self.x.first().zip(self.x.last());
+        let inside = ends.map_or(0..0, |(&first, &last)| {
+            let from = at.partition_point(|&x| x < first);
+            from..at.partition_point(|&x| x <= last).max(from)
+        });
+        let mut value = ascending(&self.x, &self.value);
+        out.clear();
+        out.resize(inside.start, 0.0);
+        out.extend(at[inside].iter().map(|&at| value(at)));
+        out.resize(at.len(), 0.0);
     }
 
     /// Multiplies all values by a factor.
@@ -260,19 +266,26 @@ pub fn smear(x: &[f64], values: &mut [f64], reach: f64) {
     for (ends, v) in segments(x, values) {
         below.push(below[below.len() - 1] + 0.5 * (ends[1] - ends[0]) * (v[0] + v[1]));
     }
-    let integral = |at: f64| {
+    // Both ends of the stretch ascend with its middle: `next` is the first node beyond.
+    let integral = |at: f64, next: &mut usize| {
         let inside = at.clamp(first, last);
-        let node = x.partition_point(|&node| node <= inside).max(1) - 1;
-        let mean = 0.5 * (values[node] + interpolate(x, values, inside));
-        below[node] + (inside - x[node]) * mean + (at - inside) * interpolate(x, values, at)
+        *next += x[*next..].iter().take_while(|&&node| node <= inside).count();
+        let node = (*next).max(1) - 1;
+        let value = between(x, values, inside, *next);
+        below[node] + (inside - x[node]) * (0.5 * (values[node] + value)) + (at - inside) * value
     };
-    let means: Vec<f64> = x.iter().map(|&x| (integral(x + reach) - integral(x - reach)) / (2.0 * reach)).collect();
+    let [mut low, mut high] = [0; 2];
+    let mean = |&x: &f64| (integral(x + reach, &mut high) - integral(x - reach, &mut low)) / (2.0 * reach);
+    let means: Vec<f64> = x.iter().map(mean).collect();
     values.copy_from_slice(&means);
 }
 
 /// Mean of the function with `values` at `x`, weighted with another one at the nodes of the latter (trapezoidal rule);
-/// zero for a weight without integral.
+/// zero for a weight without integral and for a function without nodes.
 pub fn weighted_mean(weight: &Piecewise, x: &[f64], values: &[f64]) -> f64 {
+    if values.is_empty() {
+        return 0.0;
+    }
     let (mut sum, mut total, mut value) = (0.0, 0.0, ascending(x, values));
     for (i, &at) in weight.x.iter().enumerate() {
         let (before, after) = (weight.x[i.saturating_sub(1)], weight.x[(i + 1).min(weight.x.len() - 1)]);
@@ -317,6 +330,18 @@ mod tests {
     /// A ramp to 2 at x = 1, a jump down to −1, level until x = 3.
     fn ramp_and_jump() -> Piecewise {
         Piecewise { x: vec![0.0, 1.0, 1.0, 3.0], value: vec![0.0, 2.0, -1.0, -1.0] }
+    }
+
+    #[test]
+    fn samples_are_the_values_at_each_place() {
+        let (f, at) = (ramp_and_jump(), [-1.0, 0.0, 0.5, 1.0, 2.0, 3.0, 4.0]);
+        let mut out = vec![7.0; 2];
+        for part in [&at[..], &at[3..], &at[..1], &at[6..]] {
+            f.sample(part, &mut out);
+            assert_eq!(out, part.iter().map(|&x| f.at(x)).collect::<Vec<_>>());
+        }
+        Piecewise::EMPTY.sample(&at, &mut out);
+        assert_eq!(out, [0.0; 7]);
     }
 
     #[test]

@@ -8,6 +8,7 @@ mod ends;
 mod error;
 pub mod field;
 pub mod full;
+mod kinds;
 mod layout;
 mod meshes;
 mod mirrored;

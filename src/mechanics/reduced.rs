@@ -13,6 +13,7 @@
 
 use super::MechanicsError;
 use super::damping::BodyDamping;
+use super::kinds::ModeKinds;
 use super::mirrored::{MirroredModes, symmetric_product};
 use super::motion::{self, Equations, column};
 use super::reduction::{ReducedBasis, scale_columns};
@@ -27,8 +28,9 @@ use std::sync::Arc;
 
 /// State: modal coordinates.
 pub struct ReducedBody {
-    /// Modes and what else is constant.
+    /// Modes, kind by kind, and what else is constant.
     basis: ReducedBasis,
+    kinds: ModeKinds,
     /// Modes that are even or odd; `None`: they are neither.
     mirrored: Option<MirroredModes>,
     /// Centrifugal load of the spinning wheel.
@@ -50,18 +52,28 @@ struct ModalRates {
 impl ModalRates {
     /// Power that the damping of the modes takes at the speed of the stream, with what the truncated modes carry
     /// ([`ReducedBody::carried`]) [W/m].
-    fn dissipation(&self, state: &BodyState, speed: f64, carried: Option<(&DMatrix<f64>, &DVector<f64>)>) -> f64 {
+    fn dissipation(
+        &self,
+        state: &BodyState,
+        speed: f64,
+        kinds: ModeKinds,
+        carried: Option<(&DMatrix<f64>, &DVector<f64>)>,
+    ) -> f64 {
         let (y, v, rates) = (&state.displacement, state.velocity.as_slice(), self.rates.as_slice());
         let mut power = 0.0;
-        for (block, (v, rates)) in v.chunks(TOGETHER).zip(rates.chunks(TOGETHER)).enumerate() {
-            let mut of_material = [0.0; TOGETHER];
-            let of_material = &mut of_material[..v.len()];
-            of_material.copy_from_slice(v);
-            for (matrix, x) in [(&self.transport, y)].into_iter().chain(carried) {
-                let columns = &matrix.as_slice()[block * TOGETHER * matrix.nrows()..];
-                vectorised::add_products(speed, columns, matrix.nrows(), x.as_slice(), of_material);
+        for (modes, others) in kinds.across() {
+            for first in modes.clone().step_by(TOGETHER) {
+                let block = first..(first + TOGETHER).min(modes.end);
+                let mut of_material = [0.0; TOGETHER];
+                let of_material = &mut of_material[..block.len()];
+                of_material.copy_from_slice(&v[block.clone()]);
+                kinds.add_rows(speed, &self.transport, (block.clone(), others.clone()), y, of_material);
+                if let Some((matrix, x)) = carried {
+                    let columns = &matrix.as_slice()[first * matrix.nrows()..];
+                    vectorised::add_products(speed, columns, matrix.nrows(), x.as_slice(), of_material);
+                }
+                power += rates[block].iter().zip(of_material).map(|(rate, v)| rate * *v * *v).sum::<f64>();
             }
-            power += rates.iter().zip(of_material).map(|(rate, v)| rate * *v * *v).sum::<f64>();
         }
         power
     }
@@ -82,6 +94,7 @@ struct Factorised {
 impl ReducedBody {
     /// A body of these modes; `centrifugal`: with the load of the spinning wheel.
     pub fn new(basis: ReducedBasis, centrifugal: bool, damping: &BodyDamping) -> Self {
+        let (kinds, basis) = basis.by_kinds();
         let (squares, character) = (&basis.squared_frequencies, &basis.character);
         let modal = (!damping.is_none()).then(|| ModalRates {
             rates: damping.modal(squares, character) + squares.map(|w| damping.mass + damping.stiffness * w),
@@ -89,7 +102,7 @@ impl ReducedBody {
         });
         let layer = (damping.stiffness > 0.0)
             .then(|| Arc::new(RetardedLayer { flexibility: basis.residual.clone(), time: damping.stiffness }));
-        Self { mirrored: MirroredModes::new(&basis.shapes), basis, centrifugal, modal, layer }
+        Self { mirrored: MirroredModes::new(&basis.shapes), basis, kinds, centrifugal, modal, layer }
     }
 
     /// Convection of the truncated modes into the rates of the kept ones, per force, and the forces that deform them;
@@ -140,7 +153,10 @@ impl Equations for ReducedBody {
         }
         if let Some(modal) = &self.modal {
             if speed != 0.0 {
-                add_products(speed, &modal.transport, &state.displacement, velocity);
+                for (modes, others) in self.kinds.across() {
+                    let own = &mut velocity.as_mut_slice()[modes.clone()];
+                    self.kinds.add_rows(speed, &modal.transport, (modes, others), &state.displacement, own);
+                }
                 if let Some((carried, forces)) = self.carried(state) {
                     add_products(speed, carried, forces, velocity);
                 }
@@ -155,11 +171,11 @@ impl Equations for ReducedBody {
     }
 
     fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>) {
-        add_product(-1.0, &self.basis.gyroscopic, rate, load);
+        self.kinds.add_odd(-1.0, &self.basis.gyroscopic, rate, load);
     }
 
     fn add_ale_inertia(&self, square: f64, displacement: &DVector<f64>, load: &mut DVector<f64>) {
-        add_product(square, &self.basis.ale_inertia, displacement, load);
+        self.kinds.add_even(square, &self.basis.ale_inertia, displacement, load);
     }
 
     fn centrifugal(&self) -> Option<&DVector<f64>> {
@@ -195,7 +211,10 @@ impl BodyResponse for ReducedBody {
         let share = self.layer.as_ref().map_or(1.0, |layer| layer.share(a0));
         vectorised::add_columns(share, basis.residual.as_slice(), surface.len(), &[1.0], surface.as_mut_slice());
         let mut modal = DMatrix::zeros(basis.shapes.nrows(), Axis::COUNT);
-        modal.gemm(1.0, &basis.shapes, &answer, 0.0);
+        let ports = modal.nrows();
+        for (modal, answer) in modal.as_mut_slice().chunks_exact_mut(ports.max(1)).zip(answer.column_iter()) {
+            vectorised::add_columns(1.0, basis.shapes.as_slice(), ports, answer.as_slice(), modal);
+        }
         let square = a0 * a0;
         let momentum = modal.transpose() * square;
         let inertial_response = -(modal + &basis.rigid_residual);
@@ -245,7 +264,8 @@ impl BodyResponse for ReducedBody {
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {
         let damping = self.basis.damping.as_ref();
         let dashpots = damping.map_or(0.0, |damping| quadratic_form(damping, &state.velocity));
-        let modes = self.modal.as_ref().map_or(0.0, |modal| modal.dissipation(state, speed, self.carried(state)));
+        let modes =
+            self.modal.as_ref().map_or(0.0, |modal| modal.dissipation(state, speed, self.kinds, self.carried(state)));
         dashpots + modes + self.layer.as_ref().map_or(0.0, |layer| layer.dissipation(&state.retarded))
     }
 

@@ -2,6 +2,7 @@
 
 use super::MechanicsError;
 use super::damping::ModeCharacter;
+use super::kinds::ModeKinds;
 use super::shapes::{Shapes, StaticPart};
 use super::system::BodySystem;
 use crate::axes::Axis;
@@ -14,7 +15,8 @@ use std::ops::Range;
 /// Constant data of a reduced body with `m` modes and `n` surface nodes, per metre of width.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReducedBasis {
-    /// `Ω²` [rad²/s²], ascending, `m`.
+    /// `Ω²` [rad²/s²], `m`: those of even modes and those of odd ones one after the other, ascending; where modes are neither,
+    /// all ascending.
     pub squared_frequencies: DVector<f64>,
     /// Modes on the surface `Φ_s`, `2n × m` [√(m/kg)].
     #[serde(deserialize_with = "super::rectangle::deserialize")]
@@ -109,7 +111,43 @@ impl ReducedBasis {
             centrifugal,
         };
         progress(1.0);
-        Ok(basis)
+        Ok(basis.by_kinds().1)
+    }
+
+    /// The same with its modes kind by kind.
+    ///
+    /// The surface has no part in it, so that bodies that differ in their ports have the same coordinates.
+    pub(super) fn by_kinds(self) -> (ModeKinds, Self) {
+        if self.damping.is_some() {
+            return (ModeKinds::one(self.modes()), self);
+        }
+        let (kinds, order) = ModeKinds::of(&self.ale_inertia, &[&self.gyroscopic, &self.character.transport]);
+        let ordered = if order.is_sorted() { self } else { self.in_order(&order) };
+        (kinds, ordered)
+    }
+
+    /// The same with its modes in another order.
+    pub(super) fn in_order(&self, order: &[usize]) -> Self {
+        let columns = |matrix: &DMatrix<f64>| matrix.select_columns(order);
+        let both = |matrix: &DMatrix<f64>| matrix.select_columns(order).select_rows(order);
+        let values = |vector: &DVector<f64>| vector.select_rows(order);
+        let character = &self.character;
+        ReducedBasis {
+            squared_frequencies: values(&self.squared_frequencies),
+            shapes: columns(&self.shapes),
+            rigid: self.rigid.select_rows(order),
+            centrifugal: values(&self.centrifugal),
+            gyroscopic: both(&self.gyroscopic),
+            ale_inertia: both(&self.ale_inertia),
+            damping: self.damping.as_ref().map(both),
+            character: ModeCharacter {
+                transport: both(&character.transport),
+                diameters: values(&character.diameters),
+                circumferential: values(&character.circumferential),
+            },
+            carried: self.carried.as_ref().map(columns),
+            ..self.clone()
+        }
     }
 
     /// This body with only the surface components `ports`.

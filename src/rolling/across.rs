@@ -52,7 +52,8 @@ pub fn line<'a>(model: &RollingModel, state: &'a State, number: usize) -> Option
 pub fn outputs(model: &RollingModel, state: &State, others: Outputs) -> Outputs {
     let seen = seen(model, state);
     let all = |of: &dyn Fn(&Seen) -> f64| -> Vec<f64> {
-        let mut values: Vec<f64> = seen.iter().map(of).collect();
+        let mut values = Vec::with_capacity(MOST_LINES);
+        values.extend(seen.iter().map(of));
         values.resize(MOST_LINES, 0.0);
         values
     };

@@ -22,6 +22,9 @@ struct Dent {
     depth: Vec<f64>,
 }
 
+/// Number to which small ones add without fractions: `1.5 · 2⁵²`.
+const WHOLE: f64 = 6_755_399_441_055_744.0;
+
 impl Dents {
     /// A surface without dents: closed with a circumference \[m], or open with zero.
     pub fn none(circumference: f64) -> Self {
@@ -98,7 +101,8 @@ impl Dent {
             return 0.0;
         }
         let middle = 0.5 * (self.first + self.last());
-        circumference * ((s - middle) / circumference).round()
+        // The sum has no digits behind the point.
+        circumference * ((s - middle) / circumference + WHOLE - WHOLE)
     }
 
     fn depth_at(&self, s: f64) -> f64 {

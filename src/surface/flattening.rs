@@ -35,6 +35,11 @@ impl Flattening {
         self.dents.deepest()
     }
 
+    /// Presence of dents.
+    pub fn is_dented(&self) -> bool {
+        !self.dents.is_empty()
+    }
+
     /// Largest depth that dents, and that wear has taken off \[m].
     pub fn deepest(&self) -> f64 {
         self.dents.deepest().max(self.worn.deepest())

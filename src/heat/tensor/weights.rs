@@ -2,7 +2,7 @@
 
 use super::melt::latent::LatentHeat;
 use super::mesh::body::HeatBody;
-use super::mesh::kernels::{dot, products_of_three};
+use super::mesh::kernels::{dot, products, products_of_three};
 use super::mesh::layout::HeatLayout;
 use crate::heat::observation::{Observation, Temperatures};
 use crate::heat::state::HeatState;
@@ -133,9 +133,9 @@ impl ObservationWeights {
         for (i, (body, field)) in layout.bodies().into_iter().zip(layout.split(field)).enumerate() {
             let (nodes, nm) = (layout.zone_nodes(body), body.modes.len());
             let [low, high] = [above, above + 1].map(|k| &self.core[i][k]);
-            let rows = field[nodes.start * nm..nodes.end * nm].chunks_exact(nm);
-            out[i].clear();
-            out[i].extend(rows.map(|row| (1.0 - share) * dot(row, low) + share * dot(row, high)));
+            let shape: Vec<f64> = low.iter().zip(high).map(|(low, high)| low + share * (high - low)).collect();
+            out[i].resize(nodes.len(), 0.0);
+            products(&field[nodes.start * nm..nodes.end * nm], &shape, &mut out[i]);
         }
     }
 }

@@ -10,9 +10,10 @@
 //! - where a step fails that was doubled because the errors were small, although both its halves turn out to be quiet.
 //!
 //! Events are over after some milliseconds, and vibrations deserve their steps. In long dry slides, however, heat,
-//! expansion and pressure excite each other without end, and steel that yields makes the force jump from node to node;
-//! the finest steps serve nobody: where the contact is beyond Ac1 or yields, the more steps were taken of late, the
-//! longer is the shortest one that errors ask for ([`PERSISTENCE`]).
+//! expansion and pressure excite each other without end, and steel that yields makes the force jump from node to node.
+//! A tread with dents strikes at every turn as long as the run lasts. The finest steps serve nobody there: where the
+//! contact is beyond Ac1 or yields, or the tread has dents, the more steps were taken of late, the longer is the shortest
+//! one that errors ask for ([`PERSISTENCE`]).
 
 use super::prediction::Found;
 use crate::config::Tuning;
@@ -32,7 +33,7 @@ const WARMING: f64 = 2.5e-4;
 /// those \[1].
 const TOLERANCE: f64 = 2e-3;
 const SHORTEST: f64 = 0.1;
-/// Time in which internal steps of a contact that yields or is beyond Ac1 are forgotten [s], and the number of
+/// Time in which internal steps of a contact that yields, is beyond Ac1 or has dents on its tread are forgotten [s], and the number of
 /// remembered ones that doubles [`FINEST`]; twice as many make it five times as long. The shortest steps fall from
 /// sixty in a millisecond to some six if they go on.
 const PERSISTENCE: (f64, f64) = (0.3, 500.0);
@@ -119,7 +120,8 @@ impl<'a> Control<'a> {
         let tolerance = self.tuning.tolerance;
         self.failed = 0.0;
         self.memory.noise *= FADING;
-        let counted = if found.yields || found.hottest > self.tuning.austenitisation { 1.0 } else { 0.0 };
+        let long = found.yields || found.dented || found.hottest > self.tuning.austenitisation;
+        let counted = if long { 1.0 } else { 0.0 };
         self.memory.effort = counted + self.memory.effort * libm::exp(-dt / PERSISTENCE.0);
         let quiet = error(found, 2.0 * dt) <= GROWTH * tolerance;
         if self.memory.suspect > 0.0 {
@@ -147,4 +149,36 @@ impl<'a> Control<'a> {
 /// Error by which a step of `dt` seconds is judged \[1].
 fn error(found: &Found, dt: f64) -> f64 {
     if dt > WARMING * (1.0 + 1e-9) { found.error.max(found.warming) } else { found.error }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Length \[s] down to which errors halve steps after a time \[s] in steps of a length \[s], on a tread with dents or not.
+    fn finest(dented: bool, dt: f64, time: f64) -> f64 {
+        let tuning = Tuning { tolerance: TOLERANCE, ..Tuning::default() };
+        let mut control = Control::new(&tuning, StepControl::default());
+        let mut found = Found::default();
+        found.dented = dented;
+        for _ in 0..(time / dt).round() as usize {
+            control.grows(&found, dt);
+        }
+        (found.error, found.first) = (100.0 * TOLERANCE, true);
+        let mut tried = 1e-3;
+        while control.judge(&found, tried, true) == Verdict::TooLong {
+            tried *= 0.5;
+        }
+        tried
+    }
+
+    /// Errors ask for steps of 10 to 20 µs; a tread with dents that has taken 5000 of them a second gets longer ones, one
+    /// that takes a step in a millisecond does not.
+    #[test]
+    fn dents_that_are_passed_for_long_get_longer_steps() {
+        let [smooth, dented, calm] = [finest(false, 2e-4, 1.0), finest(true, 2e-4, 1.0), finest(true, 1e-3, 1.0)];
+        println!("{smooth:.1e}, {dented:.1e}, {calm:.1e} s");
+        assert!((FINEST..2.0 * FINEST).contains(&smooth) && (5.0 * FINEST..2e-4).contains(&dented));
+        assert!(calm < 3.0 * FINEST);
+    }
 }

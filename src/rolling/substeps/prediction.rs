@@ -84,6 +84,8 @@ pub struct Found {
     pub molten: bool,
     /// True if steel yields in the contact at the end.
     pub yields: bool,
+    /// True if yielding has left dents in the tread.
+    pub dented: bool,
     /// Contact was made or lost in it.
     pub strikes: bool,
     /// True if it was the first step after a jump of the inputs: it has no history.
@@ -137,8 +139,9 @@ impl Found {
             }
         }
         let yields = to.lines.iter().any(|line| line.contact.traction.yielding.share > 0.0);
+        let dented = to.lines.iter().any(|line| line.flattening[0].is_dented());
         let strikes = from.touches() != to.touches();
-        Self { error, yields, strikes, first, doubled: ratio > 1.5, ratio, ..Self::default() }
+        Self { error, yields, dented, strikes, first, doubled: ratio > 1.5, ratio, ..Self::default() }
     }
 
     /// Adds what the heat of the same step tells.

@@ -107,16 +107,22 @@ fn raise_body(body: &HeatBody, field: &mut [f64], rows: &mut [RowBounds], floor:
 fn raise_column(values: &mut [f64], weights: &[f64]) -> f64 {
     let mut missing = 0.0;
     for j in 0..values.len() {
+        if values[j] > 0.0 {
+            continue;
+        }
         let mut lack = (-values[j] * weights[j]).max(0.0);
-        values[j] = values[j].max(0.0);
+        values[j] = 0.0;
         let mut distance = 1;
         while lack > 0.0 && distance < values.len() {
-            let near = [j.checked_sub(distance), Some(j + distance).filter(|&k| k < values.len())];
-            let has: f64 = near.iter().flatten().map(|&k| (values[k] * weights[k]).max(0.0)).sum();
+            let near = [j.wrapping_sub(distance), j + distance];
+            // A value that is still to be raised gives nothing.
+            let has = near.map(|k| values.get(k).map_or(0.0, |value| (value * weights[k]).max(0.0)));
+            let has = has[0] + has[1];
             let share = if has > lack { lack / has } else { 1.0 };
-            for k in near.into_iter().flatten() {
-                // A value that is still to be raised gives nothing.
-                values[k] *= if values[k] > 0.0 { 1.0 - share } else { 1.0 };
+            for k in near {
+                if let Some(value) = values.get_mut(k).filter(|value| **value > 0.0) {
+                    *value *= 1.0 - share;
+                }
             }
             lack -= share * has;
             distance += 1;
