@@ -242,7 +242,8 @@ class View {
     rows.forEach(([label, value, kind], k) => {
       const [name, number, track] = $("#energy").rows[k].cells;
       name.textContent = label;
-      number.textContent = `${Math.abs(value) < 5e-4 ? "0" : shown(value)} kJ`;
+      // Below 1 kJ in joules: what damps is a ten-thousandth of what brakes.
+      number.textContent = Math.abs(value) < 5e-4 ? "0 J" : Math.abs(value) < 1 ? `${shown(1e3 * value)} J` : `${shown(value)} kJ`;
       track.firstChild.className = kind;
       track.firstChild.style.width = `${(100 * Math.abs(value)) / most}%`;
     });

@@ -27,7 +27,7 @@ def text_of(path: str | Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")  # some editors begin files with a mark
     except OSError as error:
-        raise BadFile(f"{path}: cannot be read: {error}") from None
+        raise BadFile(f"{path}: cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError as error:
         raise BadFile(f"{path}: cannot be read: no text in UTF-8, such as JSON or CSV: {error}") from None
 
