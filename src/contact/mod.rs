@@ -11,6 +11,7 @@
 pub mod active_set;
 mod brake;
 pub mod choice;
+mod cone;
 pub mod error;
 pub mod film;
 mod flexibility;

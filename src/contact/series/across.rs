@@ -5,10 +5,11 @@ use super::points::COUNT;
 use super::series_line::SeriesLine;
 use super::state::Past;
 use super::tables::POWER;
+use crate::contact::cone::AlongAcross;
 use crate::contact::flexibility::values;
 
 /// Values at all points along and across.
-pub type Vectors = [[f64; COUNT]; 2];
+pub type Vectors = AlongAcross<COUNT>;
 
 impl SeriesLine<'_> {
     /// True if tractions and slips have a lateral part.

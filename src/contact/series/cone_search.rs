@@ -4,9 +4,6 @@
 use super::across::Vectors;
 use super::chebyshev::{Arch, TERMS};
 use super::coefficients::FrictionSearches;
-use super::cone::{ConeProblem, ConeVerdict};
-use super::cone_linear::Linearised;
-use super::cone_newton::Newton;
 use super::contact::SeriesContact;
 use super::places::total;
 use super::points::COUNT;
@@ -14,6 +11,7 @@ use super::series_line::SeriesLine;
 use super::state::Uncorrected;
 use super::stick::{Motions, Settling};
 use crate::axes::PerAxis;
+use crate::contact::cone::{ConeProblem, ConeVerdict, Linearised, Newton};
 use crate::contact::error::ContactError;
 
 /// Iterations of normal and tangential problem.
@@ -69,7 +67,7 @@ struct ConeSearch {
     /// Violation of friction that ends Newton's method \[1].
     tolerance: f64,
     /// Linear laws of both searches.
-    linear: [Option<Linearised>; 2],
+    linear: [Option<Linearised<COUNT>>; 2],
 }
 
 impl ConeSearch {
@@ -119,29 +117,30 @@ impl ConeSearch {
             }
             self.most[k] = now;
         }
-        let mut newton = Newton::new(contact, &mut problems, (&self.uncorrected, self.uncorrected_motion));
+        let mut newton = Newton::new(contact.coupling(), &mut problems, (&self.uncorrected, self.uncorrected_motion));
         let [without, with] = &mut self.linear;
         newton.linear = without.take();
-        let mut violation = newton.largest(contact);
-        newton.run(contact, (SHARE * violation).clamp(self.tolerance, ROUGHEST))?;
+        let mut violation = newton.largest();
+        newton.run((SHARE * violation).clamp(self.tolerance, ROUGHEST))?;
         // A first law with the correction: that without it may lead on.
         *without = newton.linear.take();
         newton.linear = with.take().or_else(|| without.clone());
         self.uncorrected.clone_from(&newton.shears);
         let motion = newton.rigid;
-        newton.correct(contact);
+        newton.correct();
         // At first the shear of the step before may be farther than that without the correction.
-        let begun = newton.now(contact);
-        newton.take(contact, &self.shears);
-        if std::mem::replace(&mut self.first, false) && newton.largest(contact) > begun.largest {
-            newton.restart(contact, &begun);
+        let begun = newton.now();
+        newton.take(&self.shears);
+        if std::mem::replace(&mut self.first, false) && newton.largest() > begun.largest {
+            newton.restart(&begun);
         }
-        let further = newton.largest(contact);
+        let further = newton.largest();
         violation = violation.max(further);
-        newton.run(contact, (SHARE * further).clamp(self.tolerance, ROUGHEST))?;
+        newton.run((SHARE * further).clamp(self.tolerance, ROUGHEST))?;
         *with = newton.linear.take();
         self.uncorrected_motion = PerAxis::from_fn(|axis| motion[axis] - newton.rigid[axis]);
         self.states = newton.verdicts.iter().map(ConeVerdict::states).collect();
+        contact.linear_laws += newton.linear_laws;
         let (shears, rigid) = (newton.shears, newton.rigid);
         // No shear leaves its disc, whatever the tolerance.
         self.shears = shears.iter().zip(&problems).map(|(shear, problem)| problem.within(shear, 1.0)).collect();
@@ -161,7 +160,7 @@ impl ConeSearch {
 
 impl SeriesContact<'_> {
     /// Problems of all lines, which have no shear from now on.
-    fn cone_problems(&mut self) -> Vec<ConeProblem> {
+    fn cone_problems(&mut self) -> Vec<ConeProblem<COUNT>> {
         self.lines.iter_mut().for_each(SeriesLine::release_points);
         self.exchange();
         let surface = self.surface();

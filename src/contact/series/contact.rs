@@ -40,29 +40,16 @@ pub struct SeriesContact<'a> {
     pub opened: usize,
     /// True if some lines may be apart.
     pub partly: bool,
-    /// Resistance of motions that are drawn to others [kg/(m s), kg m/s], and how far those are from the present ones.
-    pub drawn: PerAxis<[f64; 2]>,
 }
 
 impl<'a> SeriesContact<'a> {
     /// Contact of at least one line.
     pub fn new(lines: Vec<SeriesLine<'a>>, rigid: &'a PerAxis<RigidMotion>, relaid: Relaid<'a>) -> Self {
         relaid.problem.layouts.inspect(|layouts| layouts.begin());
-        let (pulls, moments, system, drawn) = Default::default();
+        let (pulls, moments, system) = Default::default();
         let by_powers = displaced_by_powers(&lines[0].problem.line.bodies, &lines[0].constants.points);
-        let mut contact = Self {
-            lines,
-            rigid,
-            pulls,
-            moments,
-            by_powers,
-            relaid,
-            system,
-            linear_laws: 0,
-            opened: 0,
-            partly: false,
-            drawn,
-        };
+        let mut contact =
+            Self { lines, rigid, pulls, moments, by_powers, relaid, system, linear_laws: 0, opened: 0, partly: false };
         contact.share_pulls();
         contact
     }

@@ -5,7 +5,7 @@
 //! effect of hot layers, [`places`] integrates over tractions, [`series_line`] has one line and [`contact`] what lines
 //! share, [`normal`] solves the normal problem, [`slip`], [`stretch`] and [`together`] given stretches of stick with
 //! [`equations`], [`stick`] finds where slip begins, [`points`] and [`pivoting`] which points stick where slip is not
-//! one stretch in one direction, [`across`] has the lateral direction, [`cone`], [`cone_newton`] and [`cone_search`]
+//! one stretch in one direction, [`across`] has the lateral direction, [`cone`] and [`cone_search`]
 //! friction in both, [`open`] a wheel in the air, [`coefficients`] friction that depends on the slip, [`laws`] the states
 //! of brakes, [`finish`] takes traction and power, and [`solver`] is the contact solver that says which contacts suit it. Theory:
 //! `docs/theory/patch-contact.md`, `docs/theory/lines.md`.
@@ -14,8 +14,6 @@ mod across;
 pub mod chebyshev;
 mod coefficients;
 mod cone;
-mod cone_linear;
-mod cone_newton;
 mod cone_search;
 pub(super) mod constants;
 mod contact;

@@ -1,12 +1,8 @@
-//! The law of [`super::cone`] made linear, on one line and for all lines and motions together.
+//! The law of [`super::law`] made linear, on one line and for all lines and motions together.
 
-use super::across::Vectors;
-use super::cone::{ConeProblem, ConeVerdict, PointState, SLIPS};
-use super::contact::SeriesContact;
-use super::points::COUNT;
-use super::series_line::SeriesLine;
-use crate::axes::Axis;
-use crate::contact::flexibility::{ByPowers, polynomial};
+use super::law::{AlongAcross, ConeProblem, ConeVerdict, PointState, SLIPS};
+use crate::axes::{Axis, PerAxis};
+use crate::contact::flexibility::polynomial;
 use crate::linalg::vectorised::vectorised;
 use crate::linalg::{DenseSystem, POINTS};
 
@@ -20,28 +16,28 @@ struct Unknown {
 
 /// The linear law of one line.
 #[derive(Clone)]
-struct LinearLine {
-    points: [PointState; COUNT],
+struct LinearLine<const N: usize> {
+    points: [PointState; N],
     unknowns: Vec<Unknown>,
     /// Factors of the equations of the unknowns.
     system: DenseSystem,
     /// Shear that a unit of each coefficient of the polynomials of the slip takes away \[Pa], and its moments.
-    responses: [Vectors; SLIPS],
+    responses: [AlongAcross<N>; SLIPS],
     moments: [[f64; SLIPS]; SLIPS],
 }
 
 /// The linear law of all lines and motions.
 #[derive(Clone)]
-pub struct Linearised {
-    lines: Vec<LinearLine>,
+pub struct Linearised<const N: usize> {
+    lines: Vec<LinearLine<N>>,
     /// Factors of the equations of the slips that lines and motions give to each other.
     system: DenseSystem,
 }
 
 impl Unknown {
     /// Two of each point that sticks, and one of each that slips and bears anything.
-    fn of(points: &[PointState; COUNT]) -> Vec<Self> {
-        let mut all = Vec::with_capacity(2 * COUNT);
+    fn of<const N: usize>(points: &[PointState; N]) -> Vec<Self> {
+        let mut all = Vec::with_capacity(2 * N);
         for (point, state) in points.iter().enumerate() {
             match *state {
                 PointState::Stick { .. } => {
@@ -62,9 +58,9 @@ impl Unknown {
     }
 }
 
-impl LinearLine {
+impl<const N: usize> LinearLine<N> {
     /// Law about a verdict; `None`: the equations are singular.
-    fn new(problem: &ConeProblem, verdict: &ConeVerdict) -> Option<Self> {
+    fn new(problem: &ConeProblem<N>, verdict: &ConeVerdict<N>) -> Option<Self> {
         let (points, unknowns, rows) = (verdict.points, Unknown::of(&verdict.points), &problem.rows[0]);
         let mut system = DenseSystem::default();
         system.reset(unknowns.len());
@@ -79,9 +75,9 @@ impl LinearLine {
             return None;
         }
         let mut line =
-            Self { points, unknowns, system, responses: [[[0.0; COUNT]; 2]; SLIPS], moments: [[0.0; SLIPS]; SLIPS] };
-        let mut values = [[0.0; SLIPS]; 2 * COUNT];
-        let values = &mut values[..line.unknowns.len()];
+            Self { points, unknowns, system, responses: [[[0.0; N]; 2]; SLIPS], moments: [[0.0; SLIPS]; SLIPS] };
+        let mut values = [[[0.0; SLIPS]; 2]; N];
+        let values = &mut values.as_flattened_mut()[..line.unknowns.len()];
         for (value, Unknown { point, along, .. }) in values.iter_mut().zip(&line.unknowns) {
             *value = std::array::from_fn(|k| along[k / POINTS] * rows.powers[k % POINTS][*point]);
         }
@@ -98,14 +94,14 @@ impl LinearLine {
     }
 
     /// Shear of the unknowns under a right-hand side.
-    fn solve(&mut self, right: impl Fn(&Unknown) -> f64) -> Option<Vectors> {
-        let mut values: [f64; 2 * COUNT] = [0.0; 2 * COUNT];
-        let values = &mut values[..self.unknowns.len()];
+    fn solve(&mut self, right: impl Fn(&Unknown) -> f64) -> Option<AlongAcross<N>> {
+        let mut values = [[0.0; 2]; N];
+        let values = &mut values.as_flattened_mut()[..self.unknowns.len()];
         values.iter_mut().zip(&self.unknowns).for_each(|(value, unknown)| *value = right(unknown));
         if !self.system.solve_with(values) {
             return None;
         }
-        let mut shear = Vectors::default();
+        let mut shear = [[0.0; N]; 2];
         for (unknown, value) in self.unknowns.iter().zip(values) {
             shear.iter_mut().zip(unknown.along).for_each(|(shear, along)| shear[unknown.point] += along * *value);
         }
@@ -113,14 +109,14 @@ impl LinearLine {
     }
 
     /// True if the same points stick.
-    fn is_of(&self, verdict: &ConeVerdict) -> bool {
+    fn is_of(&self, verdict: &ConeVerdict<N>) -> bool {
         let sticks = |state: &PointState| matches!(state, PointState::Stick { .. });
         self.points.iter().zip(&verdict.points).all(|(mine, other)| sticks(mine) == sticks(other))
     }
 
     /// Change of the shear that takes away what a verdict misses, while nothing else changes.
-    fn change(&mut self, problem: &ConeProblem, verdict: &ConeVerdict) -> Option<Vectors> {
-        let mut given = Vectors::default();
+    fn change(&mut self, problem: &ConeProblem<N>, verdict: &ConeVerdict<N>) -> Option<AlongAcross<N>> {
+        let mut given = [[0.0; N]; 2];
         for (i, (mine, state)) in self.points.iter().zip(&verdict.points).enumerate() {
             let (PointState::Slip { direction, turn, .. }, PointState::Slip { excess, .. }) = (mine, state) else {
                 continue;
@@ -145,30 +141,23 @@ impl LinearLine {
     }
 }
 
-/// A free motion and the lines: slips of every line by a unit of it, as coefficients of polynomials along, then across, and
-/// the part that a unit of each moment of the shear of every line has in its balance.
+/// A free motion and the lines.
 pub struct FreeMotion {
     pub axis: Axis,
+    /// Slips of every line by a unit of it, as coefficients of polynomials along, then across.
     pub slips: Vec<[f64; SLIPS]>,
-    pulls: Vec<[f64; SLIPS]>,
+    /// Part that a unit of each moment of the shear of every line has in its balance.
+    pub pulls: Vec<[f64; SLIPS]>,
+    /// Change of the force [N/m] or moment \[N] that it takes, by all motions.
+    pub resistance: PerAxis<f64>,
+    /// Missing part of its balance without shear, where motions are those of the known slips [N/m, N].
+    pub missing: f64,
+    /// Resistance of a motion that is drawn to another one [kg/(m s), kg m/s], and how far that is from the one of the known
+    /// slips.
+    pub drawn: [f64; 2],
 }
 
 impl FreeMotion {
-    /// All that are free.
-    pub fn all(contact: &SeriesContact) -> Vec<Self> {
-        let of = |axis| {
-            let slips = contact.lines.iter().map(|line| line.slips_by_motion(axis)).collect();
-            let pull = |line| {
-                std::array::from_fn(|k| {
-                    let moments: [f64; SLIPS] = std::array::from_fn(|n| if n == k { 1.0 } else { 0.0 });
-                    contact.pull_of(axis, line, &moments)
-                })
-            };
-            Self { axis, slips, pulls: (0..contact.lines.len()).map(pull).collect() }
-        };
-        contact.free_axes().map(of).collect()
-    }
-
     /// Part of the shear of a line in the balance \[N/m, N], given its moments along, then across.
     fn pull(&self, line: usize, moments: &[f64; SLIPS]) -> f64 {
         self.pulls[line].iter().zip(moments).map(|(pull, moment)| pull * moment).sum()
@@ -178,29 +167,50 @@ impl FreeMotion {
     pub fn pulls(&self, moments: &[[f64; SLIPS]]) -> f64 {
         moments.iter().enumerate().map(|(line, moments)| self.pull(line, moments)).sum()
     }
+
+    /// Change of the force [N/m] or moment \[N] that it takes, by another motion.
+    pub fn resistance(&self, other: Axis) -> f64 {
+        let drawn = if self.axis == other { self.drawn[0] } else { 0.0 };
+        self.resistance[other] + drawn
+    }
 }
 
-/// Tangential problems of all lines, the slips of every line by the moments of every other one, and what the balances of
-/// the motions that are free miss [N/m, N].
-pub struct ConeProblems<'a> {
-    pub lines: &'a [ConeProblem],
-    pub between: &'a [[[f64; SLIPS]; SLIPS]],
-    pub motions: &'a [FreeMotion],
+/// Slips and forces that lines and motions give to each other under given pressures.
+pub struct TangentialCoupling {
+    /// Slips of every line by the moments of every other one.
+    pub between: Vec<[[f64; SLIPS]; SLIPS]>,
+    /// Those that are free.
+    pub motions: Vec<FreeMotion>,
+    /// Motions of the known slips.
+    pub base: PerAxis<f64>,
+    /// Rolling radius \[m], by which moments count as forces.
+    pub radius: f64,
+    /// Shares of the lines in the width \[1].
+    pub shares: Vec<f64>,
+    /// Force of friction on all lines [N/m].
+    pub friction: f64,
+}
+
+/// Tangential problems of all lines, what they do to each other, and what the balances of the motions that are free miss
+/// [N/m, N].
+pub struct ConeProblems<'a, const N: usize> {
+    pub lines: &'a [ConeProblem<N>],
+    pub coupling: &'a TangentialCoupling,
     pub unbalance: &'a [f64],
 }
 
-impl Linearised {
+impl<const N: usize> Linearised<N> {
     /// Law about verdicts; `None`: the equations are singular.
-    pub fn new(problems: &ConeProblems, contact: &SeriesContact, verdicts: &[ConeVerdict]) -> Option<Self> {
+    pub fn new(problems: &ConeProblems<N>, verdicts: &[ConeVerdict<N>]) -> Option<Self> {
         let lines: Option<Vec<_>> =
             problems.lines.iter().zip(verdicts).map(|(problem, verdict)| LinearLine::new(problem, verdict)).collect();
-        let (lines, motions) = (lines?, problems.motions);
+        let (lines, TangentialCoupling { between, motions, .. }) = (lines?, problems.coupling);
         let (count, all) = (lines.len(), SLIPS * lines.len());
         let mut system = DenseSystem::default();
         system.reset(all + motions.len());
         for at in 0..count {
             for (by, line) in lines.iter().enumerate() {
-                let slips = line.moments.map(|moments| polynomial(&problems.between[count * at + by], &moments));
+                let slips = line.moments.map(|moments| polynomial(&between[count * at + by], &moments));
                 for p in 0..SLIPS {
                     let (row, _) = system.row(SLIPS * at + p);
                     row[SLIPS * by..][..SLIPS].iter_mut().zip(&slips).for_each(|(value, slips)| *value = slips[p]);
@@ -221,43 +231,48 @@ impl Linearised {
                 row.zip(&line.moments).for_each(|(value, moments)| *value = motion.pull(by, moments));
             }
             for (column, other) in motions.iter().enumerate() {
-                row[all + column] = contact.resistance(motion.axis, other.axis);
+                row[all + column] = motion.resistance(other.axis);
             }
         }
         system.factorise().then_some(Self { lines, system })
     }
 
     /// True if the same points stick.
-    pub fn is_of(&self, verdicts: &[ConeVerdict]) -> bool {
+    pub fn is_of(&self, verdicts: &[ConeVerdict<N>]) -> bool {
         self.lines.iter().zip(verdicts).all(|(line, verdict)| line.is_of(verdict))
     }
 
     /// Changes of the shear of all lines and of the free motions that take away what verdicts and balances miss.
-    pub fn changes(&mut self, problems: &ConeProblems, verdicts: &[ConeVerdict]) -> Option<(Vec<Vectors>, Vec<f64>)> {
+    pub fn changes(
+        &mut self,
+        problems: &ConeProblems<N>,
+        verdicts: &[ConeVerdict<N>],
+    ) -> Option<(Vec<AlongAcross<N>>, Vec<f64>)> {
         let alone = self.lines.iter_mut().zip(problems.lines).zip(verdicts);
         let alone: Option<Vec<_>> = alone.map(|((line, problem), verdict)| line.change(problem, verdict)).collect();
         let (mut changes, count) = (alone?, self.lines.len());
+        let TangentialCoupling { between, motions, .. } = problems.coupling;
         let moments: Vec<_> =
             problems.lines.iter().zip(&changes).map(|(problem, change)| problem.moments(change)).collect();
         let mut right = vec![0.0; SLIPS * count + problems.unbalance.len()];
         let (slips, balances) = right.split_at_mut(SLIPS * count);
         for (at, slips) in slips.as_chunks_mut::<SLIPS>().0.iter_mut().enumerate() {
-            *slips = sum_between(problems.between, at, &moments);
+            *slips = sum_between(between, at, &moments);
         }
-        for ((balance, motion), missing) in balances.iter_mut().zip(problems.motions).zip(problems.unbalance) {
+        for ((balance, motion), missing) in balances.iter_mut().zip(motions).zip(problems.unbalance) {
             *balance = missing + motion.pulls(&moments);
         }
         if !self.system.solve_with(&mut right) {
             return None;
         }
-        let (slips, motions) = right.split_at(SLIPS * count);
+        let (slips, moved) = right.split_at(SLIPS * count);
         for ((change, line), slips) in changes.iter_mut().zip(&self.lines).zip(slips.as_chunks::<SLIPS>().0) {
             for (slip, response) in slips.iter().zip(&line.responses) {
                 let change = change.as_flattened_mut().iter_mut().zip(response.as_flattened());
                 change.for_each(|(change, by)| *change -= slip * by);
             }
         }
-        Some((changes, motions.to_vec()))
+        Some((changes, moved.to_vec()))
     }
 }
 
@@ -276,32 +291,5 @@ vectorised! {
             }
         }
         sum
-    }
-}
-
-impl SeriesContact<'_> {
-    /// Part of a shear of a line in the balance of a motion \[N/m, N], given its moments along, then across.
-    fn pull_of(&self, axis: Axis, line: usize, moments: &[f64; SLIPS]) -> f64 {
-        let along: ByPowers = std::array::from_fn(|p| moments[p]);
-        self.pull(axis, line, [moments[0], moments[POINTS]], &along)
-    }
-
-    /// Change of the force [N/m] or moment \[N] that a motion takes, by another one.
-    pub fn resistance(&self, axis: Axis, other: Axis) -> f64 {
-        let drawn = if axis == other { self.drawn[axis][0] } else { 0.0 };
-        self.inertia(axis, other) * self.rigid[other].gain + drawn
-    }
-}
-
-impl SeriesLine<'_> {
-    /// Slip along and across by a unit of a motion, as coefficients of polynomials.
-    fn slips_by_motion(&self, axis: Axis) -> [f64; SLIPS] {
-        let mut slips = [0.0; SLIPS];
-        slips[..POINTS].copy_from_slice(&self.slip_by_motion(axis));
-        let spin = self.problem.spin.by(axis);
-        slips[0] -= spin * self.problem.line.position;
-        slips[POINTS] = if axis == Axis::Lateral { 1.0 } else { 0.0 };
-        slips[POINTS + 1] = spin * self.half_length;
-        slips
     }
 }

@@ -1,0 +1,211 @@
+//! Friction along and across on one line under given pressures: the shear of every place stays within a disc.
+//!
+//! Of the shear q, the slip s and the radius g of the disc, `q = P(q − r s)` says Coulomb's law for any `r > 0`, with the
+//! projection P on the disc. Slips stand half a place upstream of their shear. In two directions a shear that slips would
+//! point against the slip there, and not where it stands: so its slip is corrected once by the difference of both in the
+//! solution without. A step of Newton's method makes the law linear: what sticks has no slip, and what slips turns along
+//! the circle.
+//! Theory: `docs/theory/patch-contact.md`, section 3.
+
+use crate::linalg::POINTS;
+use crate::linalg::vectorised::vectorised;
+
+/// Coefficients of the polynomials of slip along and across.
+pub const SLIPS: usize = 2 * POINTS;
+/// Slip times r over the radius of the disc at which half of the correction counts \[1].
+const BEGINNING: f64 = 0.05;
+
+/// Values at all places along and across.
+pub type AlongAcross<const N: usize> = [[f64; N]; 2];
+
+/// Slips at the places of a line, by the shear there.
+#[derive(Clone)]
+pub struct SlipRows<const N: usize> {
+    /// Slips along and across by the shear of every point in this direction [m/s/Pa].
+    pub by_shear: [[[f64; N]; N]; 2],
+    /// Slips without any shear [m/s].
+    pub known: AlongAcross<N>,
+    /// Powers of the place over the half-length of the line.
+    pub powers: [[f64; N]; POINTS],
+}
+
+/// The tangential problem of one line.
+#[derive(Clone)]
+pub struct ConeProblem<const N: usize> {
+    /// Upstream of the shear, and in its place.
+    pub rows: [SlipRows<N>; 2],
+    /// Change of the slip of every point by its shear [m/s/Pa], the larger one of both directions.
+    pub least: [f64; N],
+    /// Moments of the shear of every point with the powers of the places \[m].
+    moments: [[f64; N]; POINTS],
+    /// Friction that points bear, and that at the peak of the pressure \[Pa].
+    bears: [f64; N],
+    most: f64,
+}
+
+/// State that friction asks of a point, and what is missing.
+#[derive(Clone, Copy)]
+pub enum PointState {
+    /// Stick, with the slip that is left [m/s].
+    Stick { slip: [f64; 2] },
+    /// Slip against `direction`; `turn`: how much of a turn of the shear is left over, over r [m/s/Pa]; `excess`: shear
+    /// beyond that of friction \[Pa].
+    Slip { direction: [f64; 2], turn: f64, excess: [f64; 2] },
+}
+
+/// States that friction asks of all points of a line.
+pub struct ConeVerdict<const N: usize> {
+    pub points: [PointState; N],
+    /// Largest violation of friction over its peak \[1].
+    pub largest: f64,
+}
+
+vectorised! {
+    /// Adds slips of all points by given strengths of something.
+    fn add_slips<'a, S, const N: usize>(_simd, by: &'a [[f64; N]], strengths: &'a [f64], slips: &'a mut [f64; N]) {
+        for (by, strength) in by.iter().zip(strengths) {
+            slips.iter_mut().zip(by).for_each(|(slip, by)| *slip += by * strength);
+        }
+    }
+}
+
+impl<const N: usize> SlipRows<N> {
+    /// Mean with others, which have a `share`.
+    pub fn mean(mut self, other: &Self, share: f64) -> Self {
+        fn mix(values: &mut [f64], others: &[f64], share: f64) {
+            values.iter_mut().zip(others).for_each(|(value, other)| *value += share * (other - *value));
+        }
+        for (by, other) in self.by_shear.iter_mut().zip(&other.by_shear) {
+            mix(by.as_flattened_mut(), other.as_flattened(), share);
+        }
+        mix(self.known.as_flattened_mut(), other.known.as_flattened(), share);
+        mix(self.powers.as_flattened_mut(), other.powers.as_flattened(), share);
+        self
+    }
+
+    /// Slips by a shear alone [m/s].
+    pub fn slips_of(&self, shear: &AlongAcross<N>) -> AlongAcross<N> {
+        self.beside([[0.0; N]; 2], shear)
+    }
+
+    /// Slips by a shear beside given ones.
+    fn beside(&self, mut slips: AlongAcross<N>, shear: &AlongAcross<N>) -> AlongAcross<N> {
+        for ((slips, by_shear), shear) in slips.iter_mut().zip(&self.by_shear).zip(shear) {
+            add_slips(by_shear, shear, slips);
+        }
+        slips
+    }
+
+    fn slips(&self, shear: &AlongAcross<N>, others: &[f64; SLIPS]) -> AlongAcross<N> {
+        let mut slips = self.beside(self.known, shear);
+        for (slips, others) in slips.iter_mut().zip(others.as_chunks::<POINTS>().0) {
+            add_slips(&self.powers, others, slips);
+        }
+        slips
+    }
+}
+
+impl<const N: usize> ConeProblem<N> {
+    /// The problem with slips upstream and in place, forces by the `weights` \[m] of points that bear the given friction, and
+    /// this at the peak of the pressure \[Pa].
+    pub fn new(rows: [SlipRows<N>; 2], weights: &[f64; N], bears: [f64; N], most: f64) -> Self {
+        let least = |i: usize| rows[0].by_shear.iter().map(|by| by[i][i].abs()).fold(f64::MIN_POSITIVE, f64::max);
+        let least = std::array::from_fn(least);
+        let moments = rows[1].powers.map(|power| std::array::from_fn(|i| weights[i] * power[i]));
+        Self { rows, least, moments, bears, most }
+    }
+
+    /// Moments [N/m] of a shear with the powers along, then across.
+    pub fn moments(&self, shear: &AlongAcross<N>) -> [f64; SLIPS] {
+        std::array::from_fn(|k| self.moments[k % POINTS].iter().zip(&shear[k / POINTS]).map(|(by, q)| by * q).sum())
+    }
+
+    /// Shears within the disc that come next to the given ones, which belong to a friction `ratio` times smaller.
+    pub fn within(&self, shear: &AlongAcross<N>, ratio: f64) -> AlongAcross<N> {
+        let mut within = shear.map(|shear| shear.map(|q| ratio * q));
+        for (i, bears) in self.bears.iter().enumerate() {
+            let size = length([within[0][i], within[1][i]]);
+            if size > *bears {
+                within.iter_mut().for_each(|shear| shear[i] *= bears / size);
+            }
+        }
+        within
+    }
+
+    /// Correction of the slip by the difference between that in the place of the shear and that upstream, where a solution
+    /// slips [m/s].
+    pub fn correction(&self, shear: &AlongAcross<N>, others: &[f64; SLIPS]) -> AlongAcross<N> {
+        let [upstream, in_place] = self.rows.each_ref().map(|rows| rows.slips(shear, others));
+        let weight = |i: usize| {
+            let ahead = length([upstream[0][i], upstream[1][i]]) / self.least[i];
+            let sum = ahead + BEGINNING * self.bears[i];
+            if sum > 0.0 { ahead / sum } else { 0.0 }
+        };
+        let weights: [f64; N] = std::array::from_fn(weight);
+        std::array::from_fn(|c| std::array::from_fn(|i| weights[i] * (in_place[c][i] - upstream[c][i])))
+    }
+
+    /// Adds given slips to the known ones.
+    pub fn add(&mut self, slips: &AlongAcross<N>) {
+        let known = self.rows[0].known.as_flattened_mut();
+        known.iter_mut().zip(slips.as_flattened()).for_each(|(known, slip)| *known += slip);
+    }
+
+    /// Force [N/m] by which the points resist a unit of slip, each for itself [kg/(m s)].
+    pub fn resistance(&self) -> f64 {
+        self.moments[0].iter().zip(&self.least).map(|(weight, least)| weight / least).sum()
+    }
+
+    /// Draws the shear to the given one, `strength` times as much as the slip of a point resists its own shear.
+    pub fn draw(&mut self, strength: f64, shear: &AlongAcross<N>) {
+        let SlipRows { by_shear, known, .. } = &mut self.rows[0];
+        for ((by_shear, known), shear) in by_shear.iter_mut().zip(known).zip(shear) {
+            for (i, (least, shear)) in self.least.iter().zip(shear).enumerate() {
+                by_shear[i][i] += strength * least;
+                known[i] -= strength * least * shear;
+            }
+        }
+        self.least.iter_mut().for_each(|least| *least *= 1.0 + strength);
+    }
+
+    /// States that friction asks for under a shear and the slip by all else as polynomials.
+    pub fn verdict(&self, shear: &AlongAcross<N>, others: &[f64; SLIPS]) -> ConeVerdict<N> {
+        let slips = self.rows[0].slips(shear, others);
+        let (mut points, mut largest) = ([PointState::Stick { slip: [0.0; 2] }; N], 0.0_f64);
+        for (i, point) in points.iter_mut().enumerate() {
+            let (state, violation) = self.judge(i, [shear[0][i], shear[1][i]], [slips[0][i], slips[1][i]]);
+            let violation = violation / self.most.max(f64::MIN_POSITIVE);
+            (*point, largest) = (state, largest.max(violation));
+        }
+        ConeVerdict { points, largest }
+    }
+
+    /// State that friction asks of a point with the shear q and the slip s, and its violation \[Pa].
+    fn judge(&self, i: usize, q: [f64; 2], s: [f64; 2]) -> (PointState, f64) {
+        let (bears, least) = (self.bears[i], self.least[i]);
+        let held = [0, 1].map(|c| q[c] - s[c] / least);
+        let size = length(held);
+        if size <= bears {
+            return (PointState::Stick { slip: s }, length(s) / least);
+        }
+        let (direction, share) = (held.map(|z| z / size), bears / size);
+        let turn = if share > 0.0 { (1.0 - share) / share * least } else { f64::INFINITY };
+        let excess = [0, 1].map(|c| q[c] - bears * direction[c]);
+        (PointState::Slip { direction, turn, excess }, length(excess))
+    }
+}
+
+impl<const N: usize> ConeVerdict<N> {
+    /// States of the points: 0 where they stick, 1 where they slip.
+    pub fn states(&self) -> [i8; N] {
+        self.points.map(|point| match point {
+            PointState::Stick { .. } => 0,
+            PointState::Slip { .. } => 1,
+        })
+    }
+}
+
+/// Length of a vector of shear or slip, whose squares are in range.
+fn length([along, across]: [f64; 2]) -> f64 {
+    (along * along + across * across).sqrt()
+}
