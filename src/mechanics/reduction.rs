@@ -114,7 +114,7 @@ impl ReducedBasis {
         Ok(basis.by_kinds().1)
     }
 
-    /// The same with its modes kind by kind.
+    /// Basis with its modes kind by kind, and the kinds.
     ///
     /// The surface has no part in it, so that bodies that differ in their ports have the same coordinates.
     pub(super) fn by_kinds(self) -> (ModeKinds, Self) {
@@ -126,7 +126,7 @@ impl ReducedBasis {
         (kinds, ordered)
     }
 
-    /// The same with its modes in another order.
+    /// Basis with its modes in another order.
     pub(super) fn in_order(&self, order: &[usize]) -> Self {
         let columns = |matrix: &DMatrix<f64>| matrix.select_columns(order);
         let both = |matrix: &DMatrix<f64>| matrix.select_columns(order).select_rows(order);
