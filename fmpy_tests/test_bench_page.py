@@ -27,8 +27,8 @@ STEPS = 260
 NODE = shutil.which("node")
 # Relative difference of a value to the largest of its column, by rounding. Locked patches slide hot and yield: what differs by
 # 1e-13 in the load differs by 4e-9 to 8e-9 in their peak pressure on one and the same machine, whatever the tolerances of the
-# contact. Measured against WebAssembly: 2.2e-10 (turned), 2e-12 (braked), 3e-11 (line, locked); 5.9e-9 and 2.3e-9 (locked
-# ellipse, S1002).
+# contact. Measured against WebAssembly: 2.0e-10 (turned), 3e-12 (braked), 9e-12 (line, locked); 2.6e-9 and 7e-11 (locked ellipse,
+# S1002), before other changes 5.9e-9 and 2.3e-9.
 SAME, SAME_LOCKED_PATCH = 1e-9, 2e-8
 # Of the residual of the energy: what is left of works that cancel, over the energy that is stored, which is a thousandth of them.
 SAME_RESIDUAL = 1e-7
