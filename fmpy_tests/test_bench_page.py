@@ -25,10 +25,10 @@ BRAKED = f"{START}&at=20:rail=leaves&at=40:load=110&at=60:torque=5&at=130:torque
 LOCKED = f"{START}&at=20:rail=leaves&at=40:lock&at=120:torque=1&at=120:release&at=140:load=80&at=150:hold"
 STEPS = 260
 NODE = shutil.which("node")
-# Relative difference of a value to the largest of its column, by rounding. Locked patches slide hot and yield: what differs by
-# 1e-13 in the load differs by 4e-9 to 8e-9 in their peak pressure on one and the same machine, whatever the tolerances of the
-# contact. Measured against WebAssembly: 2.0e-10 (turned), 3e-12 (braked), 9e-12 (line, locked); 2.6e-9 and 7e-11 (locked ellipse,
-# S1002), before other changes 5.9e-9 and 2.3e-9.
+# Relative difference of a value to the largest of its column, by rounding. A locked patch slides hot and yields: what differs by
+# 1e-13 in the load differs by up to 3e-9 in its peak pressure on one and the same machine (8e-9 in an earlier build, whatever the
+# tolerances of the contact). Measured against WebAssembly: 2.0e-10 (turned), 3e-12 (braked), 9e-12 (line, locked); 2.6e-9 and
+# 7e-11 (locked ellipse, S1002), in an earlier build 5.9e-9 and 2.3e-9.
 SAME, SAME_LOCKED_PATCH = 1e-9, 2e-8
 # Of the residual of the energy: what is left of works that cancel, over the energy that is stored, which is a thousandth of them.
 SAME_RESIDUAL = 1e-7

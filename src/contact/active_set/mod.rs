@@ -2,8 +2,8 @@
 //!
 //! The driver of a [line](crate::contact::line): [`search`] iterates, [`states`] has the rules by which nodes open,
 //! close, stick and slip, [`unknowns`] the unknowns of given states and [`linear`] their equations, [`axes`] the
-//! balances of the rigid motions, [`coefficients`] the friction that follows its law, [`fast`] the fast ways to solve them, and [`guess`] where it starts. [`solver`] is
-//! the contact solver that uses it. Theory: `docs/theory/contact.md`.
+//! balances of the rigid motions, [`coefficients`] the friction that follows its law, [`fast`] the fast ways to solve
+//! them, and [`guess`] where it starts. [`solver`] is the contact solver that uses it. Theory: `docs/theory/contact.md`.
 
 mod axes;
 mod coefficients;
