@@ -37,7 +37,7 @@ fn traction(grid: &ContactGrid, normal: impl Fn(f64) -> f64, tangential: impl Fn
         traction.port_forces[grid.port(i) + 1] = n;
     }
     traction.friction.coefficient = FRICTION;
-    read_off(grid, 0.0, f64::INFINITY, &state, &vec![0.0; n], &mut traction);
+    read_off(grid, [0.0, f64::INFINITY], &state, [&vec![0.0; n], &[]], &mut traction);
     traction
 }
 

@@ -35,9 +35,9 @@ impl Logarithm {
 }
 
 impl LineKernel {
-    /// Flexibility along tangential (0) or normal forces (1).
+    /// Flexibility along tangential (0), normal (1) or lateral forces (2).
     pub fn along(&self, component: usize) -> Logarithm {
-        if component == 0 { self.tangential } else { self.normal }
+        [self.tangential, self.normal, self.lateral][component]
     }
 
     /// That of a half-plane whose displacement ends at the distance `length` \[m].

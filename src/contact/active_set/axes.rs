@@ -129,7 +129,7 @@ impl<'a> Axes<'a> {
 }
 
 /// Adds a line to the balance of an axis, by its share of the width: writes the coefficients of its port forces to
-/// `forces` and adds to the `constant`.
+/// `forces` and adds to the `constant`, in which its lateral forces are.
 fn add_line(axis: Axis, line: &ContactLine, forces: &mut [f64], constant: &mut f64) {
     let (grid, bodies, share) = (line.grid, &line.problem.bodies, line.problem.share);
     forces.iter_mut().zip(bodies.momentum.row(axis.number()).iter()).for_each(|(f, m)| *f = *m);
@@ -141,7 +141,7 @@ fn add_line(axis: Axis, line: &ContactLine, forces: &mut [f64], constant: &mut f
                 forces[port + 1] -= line.slopes().rail(i);
             }
             Axis::Height => forces[port + 1] -= 1.0,
-            Axis::Lateral => {}
+            Axis::Lateral => *constant -= share * line.lateral(i),
             Axis::Rotation => {
                 let [arm_t, arm_n] = line.lever_arms(i);
                 forces[port] += arm_t;

@@ -64,7 +64,10 @@ impl FollowedLaws {
         lines.iter_mut().for_each(|line| line.traction.friction.tread_slip = states::mean_slip(line));
         let Some(searches) = &mut self.searches else { return Ok(Obedience::Obeyed) };
         let used: Vec<f64> = lines.iter().map(|line| line.traction.friction.coefficient).collect();
-        let law = |line: &ContactLine| line.problem.friction.coefficient(line.traction.friction.tread_slip);
+        let law = |line: &ContactLine| match line.is_sideways() {
+            true => line.problem.friction.coefficient(line.slip_speed()),
+            false => line.problem.friction.coefficient(line.traction.friction.tread_slip),
+        };
         let found: Vec<f64> = lines.iter().map(law).collect();
         let tells = |(used, found): (&f64, &f64)| (used - found).abs() <= LARGEST * used.max(*found);
         let error = match progress {

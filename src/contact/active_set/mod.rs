@@ -3,14 +3,17 @@
 //! The driver of a [line](crate::contact::line): [`search`] iterates, [`states`] has the rules by which nodes open,
 //! close, stick and slip, [`unknowns`] the unknowns of given states and [`linear`] their equations, [`axes`] the
 //! balances of the rigid motions, [`coefficients`] the friction that follows its law, [`fast`] the fast ways to solve
-//! them, and [`guess`] where it starts. [`solver`] is the contact solver that uses it. Theory: `docs/theory/contact.md`.
+//! them, [`pressing`] the normal problem by itself, and [`guess`] where it starts; [`sideways`] goes by turns where tractions
+//! have a lateral part. [`solver`] is the contact solver that uses it. Theory: `docs/theory/contact.md`.
 
 mod axes;
 mod coefficients;
 mod fast;
 mod guess;
 mod linear;
+mod pressing;
 mod search;
+mod sideways;
 mod solver;
 mod states;
 mod unknowns;

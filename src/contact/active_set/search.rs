@@ -12,6 +12,7 @@ use super::coefficients::{FollowedLaws, Obedience, Progress};
 use super::fast::LinearSolver;
 use super::guess::Guess;
 use super::linear::{Known, LinearProblem};
+use super::pressing::Pressing;
 use super::states::{self, Rules};
 use super::unknowns::Unknowns;
 use crate::axes::Axis;
@@ -62,28 +63,29 @@ impl ActiveSetScratch {
 
 /// Buffers of the search.
 #[derive(Default)]
-struct SearchMemory {
+pub(super) struct SearchMemory {
     unknowns: Unknowns,
     /// Nothing is known beside the unknowns.
     known: Known,
     /// Coefficients of all port forces of every line in the row at hand.
-    rows: Vec<Vec<f64>>,
+    pub rows: Vec<Vec<f64>>,
     /// States before an update.
     before: Vec<NodeStatus>,
+    pub pressing: Pressing,
     guess: Guess,
-    solver: LinearSolver,
+    pub solver: LinearSolver,
     solved: [u64; 2],
 }
 
 /// The search in one contact problem.
 pub(super) struct ActiveSet<'a> {
-    problem: &'a ContactProblem<'a>,
-    grid: &'a ContactGrid,
-    lines: Vec<ContactLine<'a>>,
+    pub problem: &'a ContactProblem<'a>,
+    pub grid: &'a ContactGrid,
+    pub lines: Vec<ContactLine<'a>>,
     /// Stiffness by which every line compares gaps with forces [N/m per m].
-    penalties: Vec<f64>,
-    axes: Axes<'a>,
-    memory: &'a mut SearchMemory,
+    pub penalties: Vec<f64>,
+    pub axes: Axes<'a>,
+    pub memory: &'a mut SearchMemory,
 }
 
 impl<'a> ActiveSet<'a> {
@@ -136,9 +138,9 @@ impl<'a> ActiveSet<'a> {
 
     /// Guesses the closed nodes from which the search starts.
     fn guess_closed(&mut self) {
-        let SearchMemory { rows, guess, solver, .. } = &mut *self.memory;
+        let SearchMemory { rows, guess, pressing, solver, .. } = &mut *self.memory;
         let rules = Rules::new(&self.lines[0], self.penalties[0], self.problem.nominal_load, 1.0, false);
-        guess.find(&mut self.lines, &self.axes, &rules, solver, rows);
+        guess.find(&mut self.lines, &self.axes, &rules, pressing, (solver, rows));
     }
 
     /// Finds the states of all nodes at the friction coefficients of their slips; returns the iterations until states were
@@ -208,7 +210,7 @@ impl<'a> ActiveSet<'a> {
     }
 
     /// Takes the forces of retarded layers in the present iterate; returns the change of their sum [N/m].
-    fn update_retarded(&mut self) -> f64 {
+    pub fn update_retarded(&mut self) -> f64 {
         self.lines.iter_mut().map(|line| line.problem.share * line.update_retarded()).sum()
     }
 
@@ -234,7 +236,7 @@ impl<'a> ActiveSet<'a> {
 
     /// True if the edges of the patches are settled. The weights of the present solution are kept if so: with weights
     /// that change from one coefficient to the next the slip would be no function of the coefficient.
-    fn edges_settled(&mut self) -> bool {
+    pub fn edges_settled(&mut self) -> bool {
         let tolerance = self.problem.edge_tolerance;
         let change = self.lines.iter_mut().map(|line| line.update_upwind(tolerance)).fold(0.0, f64::max);
         let settled = change <= tolerance.min(SAME_WEIGHT);

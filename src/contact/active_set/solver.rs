@@ -5,7 +5,7 @@ use crate::contact::error::ContactError;
 use crate::contact::line::ContactGrid;
 use crate::contact::line::contact_line::LineStart;
 use crate::contact::line::history::LineHistory;
-use crate::contact::line::state::{GridState, NodeStatus};
+use crate::contact::line::state::{AcrossNodes, GridState, NodeStatus};
 use crate::contact::line::vectors::copy;
 use crate::contact::problem::{ContactProblem, LineProblem};
 use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, SolverState};
@@ -63,6 +63,7 @@ impl ContactSolver for ActiveSetSolver {
             slip: vec![0.0; n],
             gap: vec![0.0; n],
             tangential_gap: vec![History::default(); n],
+            across: AcrossNodes::default(),
         };
         let [loads, surface] = [(); 2].map(|()| [zeros.clone(), zeros.clone()]);
         ContactState {
@@ -84,12 +85,18 @@ impl ContactSolver for ActiveSetSolver {
         if !problem.lines.iter().all(fits) || [start.len(), found.len()] != [problem.lines.len(); 2] {
             return Err(ContactError::ForeignState);
         }
-        if problem.is_sideways() {
-            return Err(ContactError::Sideways { reason: "the contact is looked for on fixed nodes" });
-        }
         let begun = start.iter().zip(found).map(|(start, found)| begin(start, found));
-        let starts = begun.collect::<Result<Vec<_>, _>>()?;
-        ActiveSet::new(&self.grid, problem, starts, &mut scratch.active_set).run()
+        let mut starts = begun.collect::<Result<Vec<_>, _>>()?;
+        let ContactScratch { active_set, linear_laws, .. } = scratch;
+        if !problem.is_sideways() {
+            return ActiveSet::new(&self.grid, problem, starts, active_set).run();
+        }
+        for LineStart { state, history, .. } in &mut starts {
+            state.across.reach(self.grid.len());
+            history.friction.reach(2 * self.grid.len());
+        }
+        *linear_laws = ActiveSet::new(&self.grid, problem, starts, active_set).run_across()?;
+        Ok(())
     }
 
     fn fits(&self, state: &ContactState) -> bool {
@@ -97,7 +104,8 @@ impl ContactSolver for ActiveSetSolver {
         let (n, ports, traction) = (self.grid.len(), self.grid.ports(), &state.traction);
         let vectors = traction.loads.iter().chain(&traction.surface).chain([&traction.port_forces]);
         [line.status.len(), line.slip.len(), line.gap.len(), line.tangential_gap.len(), line.yielded.len()] == [n; 5]
-            && state.history.friction.fits(n)
+            && line.across.fits(n)
+            && state.history.friction.fits(if line.across.force.is_empty() { n } else { 2 * n })
             && vectors.into_iter().all(|values| values.len() == ports)
             && traction.port_forces.iter().all(|f| f.is_finite())
     }

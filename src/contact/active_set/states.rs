@@ -87,7 +87,7 @@ fn new_state(line: &ContactLine, i: usize, rules: &Rules, overloaded: bool, befo
 }
 
 /// True if the steel at a node yields: it bears more than its limit.
-fn yields(line: &ContactLine, i: usize, tolerance: f64) -> bool {
+pub(super) fn yields(line: &ContactLine, i: usize, tolerance: f64) -> bool {
     let Some(excess) = line.given.strength.excess(i, line.normal(i)) else { return false };
     if excess.abs() <= tolerance { line.state.yielded[i] } else { excess > 0.0 }
 }

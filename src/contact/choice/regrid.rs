@@ -4,7 +4,7 @@
 //! open nodes without forces. Gaps and displacements of new nodes start as those of the outermost old one: nodes that
 //! close in the very step of the change lie next to it, and after it all are known.
 
-use crate::contact::line::{ContactGrid, FrictionHistory, GridState, NodeStatus};
+use crate::contact::line::{AcrossNodes, ContactGrid, FrictionHistory, GridState, NodeStatus};
 use crate::contact::solver::{ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use nalgebra::DVector;
@@ -51,15 +51,23 @@ pub(super) fn moved(line: &ContactState, grid: &ContactGrid, to: Ports) -> Optio
     let (n, ports) = (grid.len(), grid.ports());
     let mut moved = ContactState { ports: to, ..line.clone() };
     let SolverState::Grid(state) = &mut moved.solver else { return None };
-    let GridState { status, yielded, slip, gap, tangential_gap } = &mut **state;
+    let GridState { status, yielded, slip, gap, tangential_gap, across } = &mut **state;
     *status = padded(status, n, NodeStatus::Open);
     *yielded = padded(yielded, n, false);
     *slip = padded(slip, n, 0.0);
     *gap = nearest(gap, n);
     *tangential_gap = nearest(tangential_gap, n);
+    let directions = if across.force.is_empty() { 1 } else { 2 };
+    if directions == 2 {
+        let AcrossNodes { force, slip, gap } = across;
+        *force = padded(force, n, 0.0);
+        *slip = padded(slip, n, 0.0);
+        *gap = nearest(gap, n);
+    }
     let FrictionHistory { force, impulse, slip, slope_power: _, slope_work: _ } = &mut moved.history.friction;
     for values in [force, impulse, slip] {
-        *values = padded(values, n, 0.0);
+        let of_direction = values.chunks(values.len() / directions).flat_map(|values| padded(values, n, 0.0));
+        *values = of_direction.collect();
     }
     let Traction { port_forces, loads, surface, .. } = &mut moved.traction;
     for forces in loads.iter_mut().chain([port_forces]) {
@@ -103,12 +111,17 @@ mod tests {
             slip: values(9, 1.0),
             gap: values(9, 2.0),
             tangential_gap: values(9, 3.0).into_iter().map(crate::multistep::History::constant).collect(),
+            across: AcrossNodes {
+                force: values(9, 3.5),
+                slip: values(9, 4.5),
+                gap: values(9, 5.5).into_iter().map(crate::multistep::History::constant).collect(),
+            },
         };
         state.status[4] = NodeStatus::Stick;
         let friction = FrictionHistory {
-            force: values(9, 4.0),
-            impulse: values(9, 5.0),
-            slip: values(9, 6.0),
+            force: values(18, 4.0),
+            impulse: values(18, 5.0),
+            slip: values(18, 6.0),
             ..FrictionHistory::default()
         };
         let traction = Traction {

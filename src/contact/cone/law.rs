@@ -22,7 +22,7 @@ pub type AlongAcross<const N: usize> = [[f64; N]; 2];
 #[derive(Clone)]
 pub struct SlipRows<const N: usize> {
     /// Slips along and across by the shear of every point in this direction [m/s/Pa].
-    pub by_shear: [[[f64; N]; N]; 2],
+    pub by_shear: [Vec<[f64; N]>; 2],
     /// Slips without any shear [m/s].
     pub known: AlongAcross<N>,
     /// Powers of the place over the half-length of the line.
@@ -32,8 +32,10 @@ pub struct SlipRows<const N: usize> {
 /// The tangential problem of one line.
 #[derive(Clone)]
 pub struct ConeProblem<const N: usize> {
-    /// Upstream of the shear, and in its place.
-    pub rows: [SlipRows<N>; 2],
+    /// Slips that friction sees.
+    pub rows: SlipRows<N>,
+    /// Slips in the place of the shear; `None`: friction sees these.
+    in_place: Option<SlipRows<N>>,
     /// Change of the slip of every point by its shear [m/s/Pa], the larger one of both directions.
     pub least: [f64; N],
     /// Moments of the shear of every point with the powers of the places \[m].
@@ -96,7 +98,8 @@ impl<const N: usize> SlipRows<N> {
         slips
     }
 
-    fn slips(&self, shear: &AlongAcross<N>, others: &[f64; SLIPS]) -> AlongAcross<N> {
+    /// Slips by a shear and by all else as polynomials [m/s].
+    pub fn slips(&self, shear: &AlongAcross<N>, others: &[f64; SLIPS]) -> AlongAcross<N> {
         let mut slips = self.beside(self.known, shear);
         for (slips, others) in slips.iter_mut().zip(others.as_chunks::<POINTS>().0) {
             add_slips(&self.powers, others, slips);
@@ -106,13 +109,21 @@ impl<const N: usize> SlipRows<N> {
 }
 
 impl<const N: usize> ConeProblem<N> {
-    /// The problem with slips upstream and in place, forces by the `weights` \[m] of points that bear the given friction, and
-    /// this at the peak of the pressure \[Pa].
-    pub fn new(rows: [SlipRows<N>; 2], weights: &[f64; N], bears: [f64; N], most: f64) -> Self {
-        let least = |i: usize| rows[0].by_shear.iter().map(|by| by[i][i].abs()).fold(f64::MIN_POSITIVE, f64::max);
+    /// The problem with the slips that friction sees, and those in the place of the shear if they are others, forces by the
+    /// `weights` \[m] of points that bear the given friction, and this at the peak of the pressure \[Pa]. Points that bear
+    /// none have no shear.
+    pub fn new(
+        rows: SlipRows<N>,
+        in_place: Option<SlipRows<N>>,
+        weights: &[f64; N],
+        bears: [f64; N],
+        most: f64,
+    ) -> Self {
+        let least = |i: usize| rows.by_shear.iter().map(|by| by[i][i].abs()).fold(f64::MIN_POSITIVE, f64::max);
         let least = std::array::from_fn(least);
-        let moments = rows[1].powers.map(|power| std::array::from_fn(|i| weights[i] * power[i]));
-        Self { rows, least, moments, bears, most }
+        let powers = in_place.as_ref().map_or(&rows.powers, |rows| &rows.powers);
+        let moments = powers.map(|power| std::array::from_fn(|i| weights[i] * power[i]));
+        Self { rows, in_place, least, moments, bears, most }
     }
 
     /// Moments [N/m] of a shear with the powers along, then across.
@@ -135,7 +146,8 @@ impl<const N: usize> ConeProblem<N> {
     /// Correction of the slip by the difference between that in the place of the shear and that upstream, where a solution
     /// slips [m/s].
     pub fn correction(&self, shear: &AlongAcross<N>, others: &[f64; SLIPS]) -> AlongAcross<N> {
-        let [upstream, in_place] = self.rows.each_ref().map(|rows| rows.slips(shear, others));
+        let Some(in_place) = &self.in_place else { return [[0.0; N]; 2] };
+        let [upstream, in_place] = [&self.rows, in_place].map(|rows| rows.slips(shear, others));
         let weight = |i: usize| {
             let ahead = length([upstream[0][i], upstream[1][i]]) / self.least[i];
             let sum = ahead + BEGINNING * self.bears[i];
@@ -147,7 +159,7 @@ impl<const N: usize> ConeProblem<N> {
 
     /// Adds given slips to the known ones.
     pub fn add(&mut self, slips: &AlongAcross<N>) {
-        let known = self.rows[0].known.as_flattened_mut();
+        let known = self.rows.known.as_flattened_mut();
         known.iter_mut().zip(slips.as_flattened()).for_each(|(known, slip)| *known += slip);
     }
 
@@ -158,7 +170,7 @@ impl<const N: usize> ConeProblem<N> {
 
     /// Draws the shear to the given one, `strength` times as much as the slip of a point resists its own shear.
     pub fn draw(&mut self, strength: f64, shear: &AlongAcross<N>) {
-        let SlipRows { by_shear, known, .. } = &mut self.rows[0];
+        let SlipRows { by_shear, known, .. } = &mut self.rows;
         for ((by_shear, known), shear) in by_shear.iter_mut().zip(known).zip(shear) {
             for (i, (least, shear)) in self.least.iter().zip(shear).enumerate() {
                 by_shear[i][i] += strength * least;
@@ -170,7 +182,7 @@ impl<const N: usize> ConeProblem<N> {
 
     /// States that friction asks for under a shear and the slip by all else as polynomials.
     pub fn verdict(&self, shear: &AlongAcross<N>, others: &[f64; SLIPS]) -> ConeVerdict<N> {
-        let slips = self.rows[0].slips(shear, others);
+        let slips = self.rows.slips(shear, others);
         let (mut points, mut largest) = ([PointState::Stick { slip: [0.0; 2] }; N], 0.0_f64);
         for (i, point) in points.iter_mut().enumerate() {
             let (state, violation) = self.judge(i, [shear[0][i], shear[1][i]], [slips[0][i], slips[1][i]]);
@@ -185,10 +197,12 @@ impl<const N: usize> ConeProblem<N> {
         let (bears, least) = (self.bears[i], self.least[i]);
         let held = [0, 1].map(|c| q[c] - s[c] / least);
         let size = length(held);
-        if size <= bears {
+        if size <= bears && bears > 0.0 {
             return (PointState::Stick { slip: s }, length(s) / least);
         }
-        let (direction, share) = (held.map(|z| z / size), bears / size);
+        // Nothing is held at a point that bears nothing, and asks for nothing.
+        let (size, share) = if size > 0.0 { (size, bears / size) } else { (1.0, 0.0) };
+        let direction = held.map(|z| z / size);
         let turn = if share > 0.0 { (1.0 - share) / share * least } else { f64::INFINITY };
         let excess = [0, 1].map(|c| q[c] - bears * direction[c]);
         (PointState::Slip { direction, turn, excess }, length(excess))

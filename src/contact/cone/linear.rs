@@ -61,7 +61,7 @@ impl Unknown {
 impl<const N: usize> LinearLine<N> {
     /// Law about a verdict; `None`: the equations are singular.
     fn new(problem: &ConeProblem<N>, verdict: &ConeVerdict<N>) -> Option<Self> {
-        let (points, unknowns, rows) = (verdict.points, Unknown::of(&verdict.points), &problem.rows[0]);
+        let (points, unknowns, rows) = (verdict.points, Unknown::of(&verdict.points), &problem.rows);
         let mut system = DenseSystem::default();
         system.reset(unknowns.len());
         for (i, unknown) in unknowns.iter().enumerate() {
@@ -126,7 +126,7 @@ impl<const N: usize> LinearLine<N> {
                 given[c][i] = if turn.is_finite() { -outward * direction[c] } else { -excess[c] };
             }
         }
-        let slips = problem.rows[0].slips_of(&given);
+        let slips = problem.rows.slips_of(&given);
         let missing = |unknown: &Unknown| {
             let i = unknown.point;
             let missing = match verdict.points[i] {
@@ -189,6 +189,13 @@ pub struct TangentialCoupling {
     pub shares: Vec<f64>,
     /// Force of friction on all lines [N/m].
     pub friction: f64,
+}
+
+impl TangentialCoupling {
+    /// Slips of a line by given moments of the shear of all lines, as coefficients of polynomials along, then across.
+    pub fn by_lines(&self, at: usize, moments: &[[f64; SLIPS]]) -> [f64; SLIPS] {
+        sum_between(&self.between, at, moments)
+    }
 }
 
 /// Tangential problems of all lines, what they do to each other, and what the balances of the motions that are free miss

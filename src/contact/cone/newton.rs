@@ -292,14 +292,14 @@ mod tests {
             let stencil = rows[i].stencil(true, [spacing; 2]);
             -(0..3).map(|k| stencil[k] * displaced[(i + k, by)]).sum::<f64>()
         };
-        let by_shear = std::array::from_fn(|by| std::array::from_fn(|i| slip(i, by)));
+        let by_shear: Vec<[f64; N]> = (0..N).map(|by| std::array::from_fn(|i| slip(i, by))).collect();
         let rows = SlipRows {
-            by_shear: [by_shear; 2],
+            by_shear: [by_shear.clone(), by_shear],
             known: [[along; N], std::array::from_fn(|i| across + spin * place::<N>(i))],
             powers: std::array::from_fn(|k| std::array::from_fn(|i| place::<N>(i).powi(k as i32))),
         };
         let most = pressure.iter().fold(0.0_f64, |most, p| most.max(*p));
-        (ConeProblem::new([rows.clone(), rows], &[spacing; N], pressure, most), pressure)
+        (ConeProblem::new(rows, None, &[spacing; N], pressure, most), pressure)
     }
 
     /// Steady rolling with creepages along and across and a spin; with a lateral force on the body the creepage across is

@@ -1,5 +1,6 @@
 //! One contact line on its way to a solution, and the memory it needs.
 
+use super::across::LineAcross;
 use super::given::KnownPart;
 use super::grid::ContactGrid;
 use super::history::LineHistory;
@@ -11,7 +12,7 @@ use super::state::GridState;
 use super::streamline::UpwindRows;
 use crate::axes::PerAxis;
 use crate::contact::limits::RESISTANCE;
-use crate::contact::problem::LineProblem;
+use crate::contact::problem::{LineProblem, Spin};
 use crate::contact::traction::Traction;
 use nalgebra::DVector;
 
@@ -45,6 +46,8 @@ pub struct LineIterate {
     pub centred_slip: Vec<f64>,
     /// Nodal forces of one component [N/m], and the displacement by them \[m].
     pub displaced: [Vec<f64>; 2],
+    /// Lateral part.
+    pub across: LineAcross,
 }
 
 impl LineScratch {
@@ -82,6 +85,8 @@ pub struct ContactLine<'a> {
     /// Rim angle that belongs to the surface displacements at hand \[rad]: in the first iteration those of the start,
     /// while that of [`Self::frame`] is predicted.
     pub surface_angle: f64,
+    /// Spin of the wheel, if the line has a lateral direction.
+    pub spin: Spin,
 }
 
 /// State, history, traction and elastic energy from which a line starts, and which it changes.
@@ -111,7 +116,19 @@ impl<'a> ContactLine<'a> {
         iterate.centred_slip.resize(grid.len(), 0.0);
         let given = &*given;
         let frame = RimFrame { grid, radius: problem.surfaces.radius, sagitta: &given.sagitta, rim_angle: 0.0 };
-        Self { grid, problem, given, iterate, state, history, traction, energy, frame, surface_angle: 0.0 }
+        Self {
+            grid,
+            problem,
+            given,
+            iterate,
+            state,
+            history,
+            traction,
+            energy,
+            frame,
+            surface_angle: 0.0,
+            spin: Spin::default(),
+        }
     }
 
     /// Normal force of all lines per metre of the bodies' width [N/m].

@@ -39,9 +39,17 @@ fn fields(lines: &mut [ContactLine]) {
     for line in &mut *lines {
         let forces = (0..line.grid.len()).map(|i| (i, line.tangential(i)));
         line.iterate.others.moments = line.moments(forces);
+        let lateral = (0..line.state.across.force.len()).map(|i| (i, line.lateral(i)));
+        line.iterate.across.moments = line.moments(lateral);
     }
     for k in 0..lines.len() {
         let Some(patch) = lines[k].problem.patch else { return };
-        lines[k].iterate.others.field = patch.field(lines.iter().map(|line| &line.iterate.others.moments));
+        if lines[k].is_sideways() {
+            let moments = lines.iter().map(|line| [&line.iterate.others.moments, &line.iterate.across.moments]);
+            let [along, across] = patch.fields(moments);
+            (lines[k].iterate.others.field, lines[k].iterate.across.field) = (along, across);
+        } else {
+            lines[k].iterate.others.field = patch.field(lines.iter().map(|line| &line.iterate.others.moments));
+        }
     }
 }

@@ -19,14 +19,18 @@ pub fn finish(line: &mut ContactLine) {
     }
     let power = traction.friction.dissipate(friction, work, problem.duration);
     line.traction.resultant = line.resultant();
+    if line.is_sideways() {
+        line.traction.friction.slip_speed = line.slip_speed();
+        line.traction.spin_moment = line.spin_moment();
+    }
     let ContactLine { grid, given, iterate, state, traction, .. } = line;
-    let LineIterate { overlap, centred_slip, .. } = &**iterate;
+    let LineIterate { overlap, centred_slip, across, .. } = &**iterate;
     observe::overlap(grid, state, overlap, traction);
     let limits = &given.strength.limit;
     traction.yielding.springing_work = observe::springing_work(grid, overlap, limits, traction);
     let pressures = limits.iter().enumerate().map(|(i, force)| force / grid.width(i));
     let limit = pressures.reduce(f64::max).unwrap_or(f64::INFINITY);
-    observe::read_off(grid, power, limit, state, centred_slip, traction);
+    observe::read_off(grid, [power, limit], state, [centred_slip, &across.centred_slip], traction);
 }
 
 /// Moves the histories of displacements and rim angle on, and takes the energy that lines have by each other.
@@ -45,4 +49,7 @@ fn remember(line: &mut ContactLine) {
     let others = &line.iterate.others;
     let by_lines = others.moments.iter().zip(&others.field.displacement).map(|(moment, by)| moment * by).sum::<f64>();
     *line.energy = 0.5 * by_lines + line.energy_of_layer();
+    if line.is_sideways() {
+        *line.energy += line.remember_across();
+    }
 }

@@ -59,7 +59,7 @@ impl KnownPart {
         }));
         self.slip_offset.clear();
         self.slip_offset.extend(state.tangential_gap.iter().map(|h| h.offset(&problem.time)));
-        self.strength.find(grid, &problem.limits, forces);
+        self.strength.find(grid, &problem.limits, forces, &state.across.force);
         self.find_unevenness(grid, problem);
     }
 

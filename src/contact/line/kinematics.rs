@@ -58,8 +58,9 @@ impl ContactLine<'_> {
         self.frame.rim_angle = self.surface_angle;
         let (grid, problem) = (self.grid, self.problem);
         let (v, height) = (self.traction.rigid.travel, self.traction.rigid.height);
+        let turning = self.spin_velocity() * problem.position;
         let (v_c, rim, to_right) =
-            (problem.radius() * self.traction.rigid.rotation, self.rim_velocity(), self.upstream_right());
+            (problem.radius() * self.traction.rigid.rotation + turning, self.rim_velocity(), self.upstream_right());
         for i in 0..grid.len() {
             let port = grid.port(i);
             let [u_c, u_p] = &self.traction.surface;
@@ -76,6 +77,9 @@ impl ContactLine<'_> {
                 (self.state.slip[i], self.iterate.centred_slip[i]) = (0.0, 0.0);
                 self.state.gap[i] = self.given.gap[i] + self.frame.normal(u_c, i) - u_p[port + 1] + height;
             }
+        }
+        if self.is_sideways() {
+            self.evaluate_across();
         }
     }
 
@@ -158,6 +162,7 @@ impl ContactLine<'_> {
             sum.rotation -= arm_t * t + arm_n * n;
         }
         sum.rotation -= self.problem.radius() * self.iterate.retarded.force.iter().sum::<f64>();
+        sum.lateral = self.state.across.force.iter().sum();
         sum
     }
 }

@@ -4,13 +4,14 @@
 //! [`GridState`] their states, [`LineHistory`] the history that all discretisations of a line share, [`given`] the
 //! known part of a problem with its [`hot_layers`] and the [`strength`] of the steel, [`contact_line`] the line in the
 //! present iterate, [`kinematics`] its displacements, gaps and slips, [`rows`] the same as affine functions, [`alone`]
-//! the flexibility that it has for itself, [`others`] the forces of the lines beside it and [`exchange`] how they come
+//! the flexibility that it has for itself, [`across`] its lateral direction, [`others`] the forces of the lines beside it and [`exchange`] how they come
 //! there, [`field`] what the lines of a patch do to each other, [`streamline`] the upwind differences of the slip,
 //! [`kernel`] the correction of the compliance at grid scale, [`slopes`] the slopes against which pressure pushes,
 //! [`rim`] the frame that turns with the rim, [`retarded`] the forces of retarded layers, [`zone`] the ends of the
 //! grid. Of a solution [`power`] takes the power, [`observe`] the traction, and [`mod@finish`] both. Theory:
 //! `docs/theory/contact.md`.
 
+pub(super) mod across;
 pub(super) mod alone;
 pub(super) mod contact_line;
 pub(super) mod exchange;
@@ -37,4 +38,4 @@ pub(super) mod zone;
 
 pub use grid::ContactGrid;
 pub use history::{FrictionHistory, LineHistory};
-pub use state::{GridState, NodeStatus, for_each_patch};
+pub use state::{AcrossNodes, GridState, NodeStatus, for_each_patch};

@@ -14,19 +14,20 @@ const FADING: f64 = 0.2;
 /// Least distance of the end of a profile from the outermost node of a patch [spacings].
 const MARGIN: f64 = 1e-3;
 
-/// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the power `power`
-/// of friction [W/m], the slip velocities of the candidates `centred_slip` [m/s] and the largest pressure `limit` that
-/// the steel bears anywhere \[Pa].
+/// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the `power` of
+/// friction [W/m] and the largest pressure `limit` that the steel bears anywhere \[Pa], and the slip velocities of the
+/// candidates with centred differences, along and across [m/s].
 pub fn read_off(
     grid: &ContactGrid,
-    power: f64,
-    limit: f64,
+    [power, limit]: [f64; 2],
     state: &GridState,
-    centred_slip: &[f64],
+    [centred_slip, centred_across]: [&[f64]; 2],
     traction: &mut Traction,
 ) {
     let forces = &traction.port_forces;
     let tangential = |i: usize| forces[grid.port(i)];
+    let lateral = |i: usize| state.across.force.get(i).copied().unwrap_or(0.0);
+    let shear = |i: usize| if lateral(i) == 0.0 { tangential(i).abs() } else { libm::hypot(tangential(i), lateral(i)) };
     let normal = |i: usize| forces[grid.port(i) + 1];
     traction.pressure_max = pressure_peak(grid, &state.yielded, normal, limit);
     traction.edges.clear();
@@ -37,9 +38,8 @@ pub fn read_off(
         traction.edges.push(edges);
         traction.patches.push(stretch(grid, edges, &run));
         length += run.clone().map(|i| grid.width(i)).sum::<f64>();
-        let margin = |i: usize| {
-            (grid.share(i) * (traction.friction.coefficient * normal(i) - tangential(i).abs())).max(0.0).powi(2)
-        };
+        let margin =
+            |i: usize| (grid.share(i) * (traction.friction.coefficient * normal(i) - shear(i))).max(0.0).powi(2);
         stuck += stick_length(grid, &state.status, margin, run);
     });
     traction.stick_fraction = if length > 0.0 { (stuck / length).clamp(0.0, 1.0) } else { 0.0 };
@@ -48,10 +48,17 @@ pub fn read_off(
     over_patches(grid, status, patches, |i| normal(i) / grid.width(i), &mut traction.pressure);
     over_patches(grid, status, patches, |i| tangential(i) / grid.width(i), &mut traction.shear);
     over_patches(grid, status, patches, |i| centred_slip[i], &mut traction.slip);
+    if !state.across.force.is_empty() {
+        over_patches(grid, status, patches, |i| lateral(i) / grid.width(i), &mut traction.lateral_shear);
+        over_patches(grid, status, patches, |i| centred_across[i], &mut traction.lateral_slip);
+    }
     // The upwind slip knows where friction acts, the centred one how much it dissipates. What is left of the slip at
     // stuck nodes is round-off: it would place the heat of a contact that sticks everywhere at random.
     let density = |i: usize| match status[i] {
-        NodeStatus::SlipForward | NodeStatus::SlipBackward => (-tangential(i) * state.slip[i] / grid.width(i)).max(0.0),
+        NodeStatus::SlipForward | NodeStatus::SlipBackward => {
+            let across = state.across.slip.get(i).map_or(0.0, |slip| lateral(i) * slip);
+            (-(tangential(i) * state.slip[i] + across) / grid.width(i)).max(0.0)
+        }
         NodeStatus::Stick | NodeStatus::Open => 0.0,
     };
     over_patches(grid, status, patches, density, &mut traction.friction.dissipation);

@@ -11,8 +11,11 @@ impl ContactLine<'_> {
     /// impulse of every force times the mean velocity.
     pub fn take_friction_power(&mut self) -> [f64; 2] {
         let rest = self.slope_power() - self.expansion();
-        let Self { grid, problem, traction, iterate, history, .. } = self;
-        let of_node = |i: usize| [traction.port_forces[grid.port(i)], iterate.centred_slip[i]];
+        let Self { grid, problem, traction, iterate, history, state, .. } = self;
+        let of_node = |place: usize| match place.checked_sub(grid.len()) {
+            Some(i) => [state.across.force[i], iterate.across.centred_slip[i]],
+            None => [traction.port_forces[grid.port(place)], iterate.centred_slip[place]],
+        };
         history.friction.advance(&problem.time, rest, of_node)
     }
 

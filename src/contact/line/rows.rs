@@ -154,7 +154,10 @@ impl ContactLine<'_> {
         accelerations.add(by_angle, rim.accelerations);
         constant += by_angle * (rim.constant - self.frame.rim_angle);
         let (travel, rotation) = (1.0 + stretch_rail, -problem.radius() * (1.0 + stretch_wheel));
-        let motions = PerAxis { travel, rotation, ..PerAxis::default() };
+        let mut motions = PerAxis { travel, rotation, ..PerAxis::default() };
+        if self.is_sideways() {
+            motions.add(-problem.position, PerAxis::from_fn(|axis| self.spin.by(axis)));
+        }
         constant += -v * stretch_rail + problem.radius() * self.traction.rigid.rotation * stretch_wheel;
         AffineRow { motions, accelerations, constant }
     }

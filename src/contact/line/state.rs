@@ -75,6 +75,35 @@ pub struct GridState {
     pub gap: Vec<f64>,
     /// Tangential displacement of the wheel less that of the rail, and its history \[m].
     pub tangential_gap: Vec<History>,
+    /// Lateral part.
+    pub across: AcrossNodes,
+}
+
+/// Lateral part of the states of the candidates; empty where tractions and slips have none.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AcrossNodes {
+    /// Lateral forces on the wheel [N/m].
+    pub force: Vec<f64>,
+    /// Lateral slip velocity of the wheel relative to the rail at closed nodes as the friction law sees it; zero elsewhere
+    /// [m/s].
+    pub slip: Vec<f64>,
+    /// Lateral displacement of the wheel less that of the rail, and its history \[m].
+    pub gap: Vec<History>,
+}
+
+impl AcrossNodes {
+    /// Makes room for `n` candidates, of which further ones have had no force.
+    pub fn reach(&mut self, n: usize) {
+        self.force.resize(n, 0.0);
+        self.slip.resize(n, 0.0);
+        self.gap.resize(n, History::default());
+    }
+
+    /// True if it is empty or has `n` finite candidates.
+    pub fn fits(&self, n: usize) -> bool {
+        let lengths = [self.force.len(), self.slip.len(), self.gap.len()];
+        (lengths == [0; 3] || lengths == [n; 3]) && self.force.iter().chain(&self.slip).all(|value| value.is_finite())
+    }
 }
 
 impl GridState {
@@ -85,5 +114,9 @@ impl GridState {
         self.slip.clone_from(&other.slip);
         self.gap.clone_from(&other.gap);
         self.tangential_gap.clone_from(&other.tangential_gap);
+        let (across, other) = (&mut self.across, &other.across);
+        across.force.clone_from(&other.force);
+        across.slip.clone_from(&other.slip);
+        across.gap.clone_from(&other.gap);
     }
 }

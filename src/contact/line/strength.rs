@@ -31,14 +31,20 @@ pub struct Strength {
 }
 
 impl Strength {
-    /// Finds all limits; `forces` are the port forces of the start [N/m].
-    pub fn find(&mut self, grid: &ContactGrid, limits: &SteelLimits, forces: &DVector<f64>) {
+    /// Finds all limits; `forces` are the port forces of the start, `lateral` those across at the candidates [N/m]; empty:
+    /// there are none.
+    pub fn find(&mut self, grid: &ContactGrid, limits: &SteelLimits, forces: &DVector<f64>, lateral: &[f64]) {
         let Self { limit, in_shear, pressed, film } = self;
         [&mut *in_shear, limit, pressed, film].into_iter().for_each(Vec::clear);
         if limits.is_limited() {
             in_shear.extend(grid.x.iter().enumerate().map(|(i, &x)| grid.width(i) * limits.strength_at(x)));
             pressed.extend((0..grid.len()).map(|i| forces[grid.port(i) + 1]));
-            let ratio = |i: usize| forces[grid.port(i)].abs() / pressed[i];
+            let across = |i: usize| lateral.get(i).copied().unwrap_or(0.0);
+            let sheared = |i: usize| match across(i) {
+                0.0 => forces[grid.port(i)].abs(),
+                lateral => libm::hypot(forces[grid.port(i)], lateral),
+            };
+            let ratio = |i: usize| sheared(i) / pressed[i];
             // Nodes that close take the shear of the nearest ones.
             let closed = |i: &usize| pressed[*i] > 0.0;
             let ends = (0..grid.len()).find(closed).zip((0..grid.len()).rfind(closed));

@@ -29,17 +29,17 @@ impl SeriesLine<'_> {
         let known = [self.slip(&both, surface, false), self.lateral_slip(&both, false)];
         let rows = |set: usize, tables: &PointTables| SlipRows {
             by_shear: [self.problem.line.kernel.tangential, self.problem.line.kernel.lateral]
-                .map(|kernel| self.slips_by_points(tables, kernel)),
+                .map(|kernel| self.slips_by_points(tables, kernel).to_vec()),
             known: known.map(|known| std::array::from_fn(|i| known[set * COUNT + i])),
             powers: self.powers_at(&places[set]),
         };
         let in_place = rows(1, &constants.in_place);
-        let rows = [rows(0, &constants.of_points).mean(&in_place, 1.0 - self.way_upstream()), in_place];
+        let rows = rows(0, &constants.of_points).mean(&in_place, 1.0 - self.way_upstream());
         // The rule of Gauss and Chebyshev has its places at the points.
         let part = PI / (COUNT + 1) as f64;
         let weights: [f64; COUNT] = std::array::from_fn(|i| half * part * libm::sin((i + 1) as f64 * part));
         let bears = self.tractions.pressure.density(&places[1]).map(|p| self.friction * p.max(0.0));
-        ConeProblem::new(rows, &weights, bears, self.friction * terms[0])
+        ConeProblem::new(rows, Some(in_place), &weights, bears, self.friction * terms[0])
     }
 
     /// Share of the way to half a point upstream that the slips stand from their shear: in steps much shorter than the

@@ -1,0 +1,209 @@
+//! What lines and free motions do to each other, as polynomials.
+//!
+//! The bodies pass on forces smoothly, so that slips by forces of other lines, slips by motions and parts in the balances
+//! are taken at a few nodes and interpolated. What that leaves out comes back with the exact slips of the next turn.
+
+use super::super::search::ActiveSet;
+use crate::axes::{Axis, PerAxis};
+use crate::contact::cone::{FreeMotion, SLIPS, TangentialCoupling};
+use crate::contact::flexibility::{Between, ByMoments, ByPowers, slip_of_field};
+use crate::contact::line::contact_line::ContactLine;
+use crate::linalg::{DenseSystem, POINTS};
+use std::f64::consts::PI;
+
+/// Least force by which balances are judged, over the nominal load \[1]: lines may carry nothing.
+const LEAST_FRICTION: f64 = 1e-3;
+
+/// Nodes of a line by whose values polynomials are found, and how they are.
+struct Sampled {
+    nodes: Vec<usize>,
+    /// Coefficients of the polynomial by a unit value at each of the nodes.
+    by_values: Vec<ByPowers>,
+}
+
+impl Sampled {
+    /// Nodes next to Chebyshev's places on the line.
+    fn new(line: &ContactLine) -> Self {
+        let (x, half_length) = (&line.grid.x, line.problem.patch.map_or(1.0, |patch| patch.half_length));
+        let places = (0..POINTS).map(|k| -half_length * libm::cos((k as f64 + 0.5) * PI / POINTS as f64));
+        let mut nodes: Vec<usize> =
+            places.map(|place| x.partition_point(|x| *x < place - 0.5 * line.grid.spacing).min(x.len() - 1)).collect();
+        nodes.dedup();
+        let count = nodes.len();
+        let mut system = DenseSystem::default();
+        system.reset(count);
+        for (r, &i) in nodes.iter().enumerate() {
+            let powers = line.problem.patch.map_or([0.0; POINTS], |patch| patch.powers(x[i]));
+            system.row(r).0.copy_from_slice(&powers[..count]);
+        }
+        let mut by_values = vec![ByPowers::default(); count];
+        if system.factorise() {
+            for (node, by_value) in by_values.iter_mut().enumerate() {
+                let mut values = vec![0.0; count];
+                values[node] = 1.0;
+                if system.solve_with(&mut values) {
+                    by_value[..count].copy_from_slice(&values);
+                }
+            }
+        }
+        Self { nodes, by_values }
+    }
+
+    /// Coefficients of the polynomial with given values at the nodes.
+    fn polynomial(&self, value: impl Fn(usize) -> f64) -> ByPowers {
+        let mut sum = ByPowers::default();
+        for (&node, by_value) in self.nodes.iter().zip(&self.by_values) {
+            let value = value(node);
+            sum.iter_mut().zip(by_value).for_each(|(sum, by)| *sum += value * by);
+        }
+        sum
+    }
+}
+
+/// Smooth slips of a line and what it takes from motions.
+struct SmoothSlips {
+    sampled: Sampled,
+    /// Slips along at the nodes by unit forces on the bodies at all ports, row by row [m/s/(N/m)].
+    by_bodies: Vec<Vec<f64>>,
+    /// Slips along by unit motions.
+    by_motions: PerAxis<ByPowers>,
+}
+
+impl ActiveSet<'_> {
+    /// Coupling of all lines and free motions in the present iterate.
+    pub fn coupling(&mut self) -> TangentialCoupling {
+        let smooth: Vec<_> = self.lines.iter().map(|line| self.smooth_slips(line)).collect();
+        let between = self.between(&smooth);
+        let axes: Vec<Axis> = Axis::along().filter(|axis| self.axes.seeks(*axis) && !self.axes.holds(*axis)).collect();
+        let mut coupling = TangentialCoupling {
+            between,
+            motions: Vec::new(),
+            base: self.lines[0].traction.rigid,
+            radius: self.lines[0].problem.radius(),
+            shares: self.lines.iter().map(|line| line.problem.share).collect(),
+            friction: self.friction_of_all().max(LEAST_FRICTION * self.problem.nominal_load),
+        };
+        for axis in axes {
+            let motion = self.free_motion(axis, &smooth);
+            coupling.motions.push(motion);
+        }
+        coupling
+    }
+
+    /// Force of friction that all lines together bear [N/m].
+    fn friction_of_all(&self) -> f64 {
+        let of_line = |line: &ContactLine| {
+            (0..line.grid.len()).map(|i| line.friction(i) * line.normal(i).max(0.0)).sum::<f64>() * line.problem.share
+        };
+        self.lines.iter().map(of_line).sum()
+    }
+
+    fn smooth_slips(&self, line: &ContactLine) -> SmoothSlips {
+        let sampled = Sampled::new(line);
+        let all = 0..line.grid.ports();
+        let by_bodies = |&i: &usize| {
+            let mut forces = vec![0.0; line.grid.ports()];
+            line.slip_by_shared(i, 1.0, all.clone(), &mut forces);
+            forces
+        };
+        let equation = |i: usize| self.axes.equation(line.add_slip(i, 0..0, &mut [])).motions;
+        let by_motions = PerAxis::from_fn(|axis| sampled.polynomial(|i| equation(i)[axis]));
+        SmoothSlips { by_bodies: sampled.nodes.iter().map(by_bodies).collect(), by_motions, sampled }
+    }
+
+    /// Slips of every line by unit moments of every other one: through the bodies, and as lines of a patch. A line itself
+    /// has what its lateral forces do along, and those along across.
+    fn between(&self, smooth: &[SmoothSlips]) -> Vec<[[f64; SLIPS]; SLIPS]> {
+        let count = self.lines.len();
+        (0..count * count)
+            .map(|pair| {
+                let (at, by) = (pair / count, pair % count);
+                let (line, other) = (&self.lines[at], &self.lines[by]);
+                let mut slips = [[0.0; SLIPS]; SLIPS];
+                if at != by {
+                    let by_bodies = through_bodies(line, &smooth[at], other, &smooth[by]);
+                    add(&by_bodies, [0, 0], &mut slips);
+                }
+                let Some(patch) = line.problem.patch else { return slips };
+                let rates = [line.problem.time.a0, line.traction.rigid.travel + line.rim_velocity()];
+                let slip = |between: &Between| slip_by_moments(between, rates, patch.half_length);
+                if at != by {
+                    add(&slip(patch.flexibility.between(at, by)), [0, 0], &mut slips);
+                }
+                let Some([across, askew]) = patch.flexibility.across(at, by) else { return slips };
+                if at != by {
+                    add(&slip(across), [1, 1], &mut slips);
+                }
+                let askew = slip(askew);
+                add(&askew, [0, 1], &mut slips);
+                add(&askew, [1, 0], &mut slips);
+                slips
+            })
+            .collect()
+    }
+
+    /// A motion that is free, about the present iterate.
+    fn free_motion(&mut self, axis: Axis, smooth: &[SmoothSlips]) -> FreeMotion {
+        let Self { lines, axes, memory, problem, .. } = self;
+        let rows = &mut memory.rows;
+        let balance = axes.row(axis, lines, rows);
+        let (mut missing, rigid) = (balance.constant, lines[0].traction.rigid);
+        missing += balance.motions.dot(rigid);
+        let mut pulls = Vec::new();
+        for ((line, smooth), row) in lines.iter().zip(smooth).zip(&*rows) {
+            missing += row.iter().zip(line.traction.port_forces.iter()).map(|(c, f)| c * f).sum::<f64>();
+            let along = smooth.sampled.polynomial(|i| -row[line.grid.port(i)]);
+            let mut pull = [0.0; SLIPS];
+            pull[..POINTS].copy_from_slice(&along);
+            if axis == Axis::Lateral {
+                pull = [0.0; SLIPS];
+                pull[POINTS] = line.problem.share;
+            }
+            pulls.push(pull);
+        }
+        let slips = lines.iter().zip(smooth).map(|(line, smooth)| {
+            let mut slips = [0.0; SLIPS];
+            slips[..POINTS].copy_from_slice(&smooth.by_motions[axis]);
+            slips[POINTS] = if axis == Axis::Lateral { 1.0 } else { 0.0 };
+            slips[POINTS + 1] = problem.spin.by(axis) * line.problem.patch.map_or(0.0, |patch| patch.half_length);
+            slips
+        });
+        let slips: Vec<_> = slips.collect();
+        let moments = lines.iter().map(|line| {
+            let (along, across) = (&line.iterate.others.moments, &line.iterate.across.moments);
+            std::array::from_fn::<f64, SLIPS, _>(|k| if k < POINTS { along[k] } else { across[k - POINTS] })
+        });
+        let present: f64 = moments
+            .zip(&pulls)
+            .map(|(moments, pull)| pull.iter().zip(moments).map(|(pull, moment)| pull * moment).sum::<f64>())
+            .sum();
+        FreeMotion { axis, slips, pulls, resistance: balance.motions, missing: -missing - present, drawn: [0.0; 2] }
+    }
+}
+
+/// Slips along of a line by unit moments of another one through the bodies.
+fn through_bodies(line: &ContactLine, at: &SmoothSlips, other: &ContactLine, by: &SmoothSlips) -> ByMoments {
+    let share = other.problem.share;
+    let of_node = |row: &Vec<f64>| by.sampled.polynomial(|j| share * row[line.grid.port(j)]);
+    let at_nodes: Vec<ByPowers> = at.by_bodies.iter().map(of_node).collect();
+    std::array::from_fn(|moment| {
+        let mut sum = ByPowers::default();
+        for (values, by_value) in at_nodes.iter().zip(&at.sampled.by_values) {
+            sum.iter_mut().zip(by_value).for_each(|(sum, by)| *sum += values[moment] * by);
+        }
+        sum
+    })
+}
+
+/// Slips by unit moments of a field, given the weight of its rate [1/s] and the sum of the speeds of both surfaces [m/s].
+fn slip_by_moments(between: &Between, rates: [f64; 2], half_length: f64) -> ByMoments {
+    let [rate, strain] = slip_of_field(rates, half_length);
+    std::array::from_fn(|n| std::array::from_fn(|p| rate * between.displacement[n][p] + strain * between.strain[n][p]))
+}
+
+/// Adds slips in a direction by moments of a direction, those along before those across.
+fn add(by_moments: &ByMoments, [at, by]: [usize; 2], slips: &mut [[f64; SLIPS]; SLIPS]) {
+    for (slips, by_moment) in slips[POINTS * by..].iter_mut().zip(by_moments) {
+        slips[POINTS * at..].iter_mut().zip(by_moment).for_each(|(slip, by)| *slip += by);
+    }
+}

@@ -1,0 +1,184 @@
+//! Contact with lateral tractions on paired nodes: pressure and shear by turns.
+//!
+//! Normal forces are those of the shear of before ([`super::pressing`]); the shear along and across all lines, with the
+//! motions that are free, is that of these normal forces ([`crate::contact::cone`]). Each turn begins with the exact gaps and
+//! slips of the last one, so that what its equations leave out only makes turns more: [`slips`] has the flexibility of a
+//! line by itself, [`coupling`] what lines and motions do to each other. Theory: `docs/theory/sideways.md`.
+
+mod coupling;
+mod slips;
+
+use super::coefficients::{FollowedLaws, Obedience, Progress};
+use super::pressing::Thoroughness;
+use super::search::{ActiveSet, SearchMemory};
+use super::states::{self, Rules};
+use crate::axes::{Axis, PerAxis};
+use crate::contact::cone::{AlongAcross, ConeVerdict, Newton};
+use crate::contact::error::ContactError;
+use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::state::NodeStatus;
+use crate::contact::line::{exchange, finish, zone};
+
+/// Turns at most.
+const MOST: usize = 120;
+/// Extent of the search for the states of the normal problem in a turn.
+const PRESSED: Thoroughness = Thoroughness { most: 80, together: 30, yields: true };
+/// Violation of friction and change of normal forces that count as none \[1].
+const TOLERANCE: f64 = 1e-9;
+/// Violation and change at which coefficients of friction begin to follow their laws \[1].
+const TELLING: f64 = 1e-3;
+/// Violation of friction that ends Newton's method at most, and the share of that before which does \[1].
+const ROUGHEST: f64 = 1e-2;
+const SHARE: f64 = 1e-3;
+/// Numbers of closed nodes of a line for which there is a search.
+const MOST_NODES: usize = 256;
+
+impl ActiveSet<'_> {
+    /// Iterates from the states and forces of the start to the solution of a contact with lateral tractions; returns the times
+    /// that the law of friction was made linear.
+    pub fn run_across(mut self) -> Result<usize, ContactError> {
+        let spin = self.problem.spin;
+        for line in &mut self.lines {
+            line.spin = spin;
+            line.update_retarded();
+        }
+        exchange::forces(&mut self.lines);
+        let laws = FollowedLaws::begin(&mut self.lines);
+        for line in &mut self.lines {
+            line.begin_upwind();
+            line.take_surface_angle();
+            line.frame.rim_angle = line.predicted_angle();
+        }
+        let mut linear_laws = 0;
+        let turns = self.turn_about(laws, &mut linear_laws)?;
+        self.lines.iter_mut().for_each(|line| line.traction.iterations = turns);
+        self.lines.iter().try_for_each(zone::check)?;
+        self.lines.iter_mut().for_each(finish::finish);
+        Ok(linear_laws)
+    }
+
+    /// Finds pressure and shear by turns; returns their number.
+    fn turn_about(&mut self, mut laws: FollowedLaws, linear_laws: &mut usize) -> Result<usize, ContactError> {
+        let mut pressed = self.press()?;
+        for turn in 1..=MOST {
+            self.evaluate();
+            let settled = self.edges_settled();
+            let relieved = self.update_retarded().abs() / self.problem.nominal_load;
+            let violation = self.shear(linear_laws)?;
+            let braked = self.brakes_change();
+            let before = pressed;
+            pressed = self.press()?;
+            let change = violation.max(pressed.change_from(&before, self.problem.nominal_load)).max(relieved);
+            let progress = match change {
+                change if change <= TOLERANCE && settled && !braked => Progress::Refined,
+                change if change <= TELLING => Progress::Settled,
+                _ => continue,
+            };
+            if laws.follow(&mut self.lines, progress)? == Obedience::Obeyed && progress == Progress::Refined {
+                self.evaluate();
+                return Ok(turn);
+            }
+        }
+        Err(ContactError::NotConverged { iterations: MOST })
+    }
+
+    /// Takes displacements, gaps and slips of the present forces and motions.
+    fn evaluate(&mut self) {
+        exchange::forces(&mut self.lines);
+        for axis in Axis::along().filter(|axis| self.axes.holds(*axis)) {
+            self.lines.iter_mut().for_each(|line| line.traction.rigid[axis] = 0.0);
+        }
+        for line in &mut self.lines {
+            line.evaluate(self.axes.sought_accelerations(line.traction.rigid));
+        }
+    }
+
+    /// Finds closed nodes and normal forces under the present shear.
+    fn press(&mut self) -> Result<Pressed, ContactError> {
+        let Self { lines, axes, memory, penalties, problem, .. } = self;
+        let rules = Rules::new(&lines[0], penalties[0], problem.nominal_load, 1.0, false);
+        let SearchMemory { pressing, solver, rows, .. } = &mut **memory;
+        let settled = pressing.press(lines, axes, &rules, PRESSED, (solver, rows))?;
+        for line in lines.iter_mut() {
+            for i in 0..line.grid.len() {
+                if !line.state.status[i].is_active() {
+                    line.state.across.force[i] = 0.0;
+                }
+            }
+        }
+        let held = problem.rigid.height.gain != 0.0 || !axes.seeks(Axis::Height);
+        match settled && (held || !states::support(lines)) {
+            true => Ok(Pressed::of(lines)),
+            false => Err(ContactError::NotConverged { iterations: PRESSED.most }),
+        }
+    }
+
+    /// Takes new states of the brakes; whether any changed.
+    fn brakes_change(&mut self) -> bool {
+        let Self { lines, axes, memory, penalties, problem, grid } = self;
+        let rules = Rules::new(&lines[0], penalties[0], problem.nominal_load, 1.0, false);
+        axes.update_brakes(lines, &mut memory.rows, rules.force * grid.len() as f64)
+    }
+
+    /// Finds the shear of all lines and the free motions under the present normal forces; returns how far friction and
+    /// balances were violated before \[1].
+    fn shear(&mut self, linear_laws: &mut usize) -> Result<f64, ContactError> {
+        let closed = |line: &ContactLine| line.state.status.iter().filter(|status| status.is_active()).count();
+        match self.lines.iter().map(closed).max().unwrap_or(0) {
+            0..=32 => self.shear_of::<32>(linear_laws),
+            33..=64 => self.shear_of::<64>(linear_laws),
+            65..=128 => self.shear_of::<128>(linear_laws),
+            129..=MOST_NODES => self.shear_of::<MOST_NODES>(linear_laws),
+            _ => Err(ContactError::Sideways { reason: "more than 256 nodes of a line touch (model.elements)" }),
+        }
+    }
+
+    fn shear_of<const N: usize>(&mut self, linear_laws: &mut usize) -> Result<f64, ContactError> {
+        let nodes: Vec<Vec<usize>> = self.lines.iter().map(closed_nodes).collect();
+        let coupling = self.coupling();
+        let shears: Vec<AlongAcross<N>> =
+            self.lines.iter().zip(&nodes).map(|(line, nodes)| slips::shears(line, nodes)).collect();
+        let mut problems = self.cone_problems(&nodes, &shears, &coupling);
+        let mut newton = Newton::new(coupling, &mut problems, (&shears, PerAxis::default()));
+        let violation = newton.largest();
+        newton.run((SHARE * violation).clamp(TOLERANCE, ROUGHEST))?;
+        *linear_laws += newton.linear_laws;
+        let (found, rigid) = (std::mem::take(&mut newton.shears), newton.rigid);
+        let states: Vec<_> = newton.verdicts.iter().map(ConeVerdict::states).collect();
+        for (((line, nodes), problem), (shear, states)) in
+            self.lines.iter_mut().zip(&nodes).zip(&problems).zip(found.iter().zip(&states))
+        {
+            line.traction.rigid = rigid;
+            slips::take(line, nodes, &problem.within(shear, 1.0), states);
+        }
+        Ok(violation)
+    }
+}
+
+fn closed_nodes(line: &ContactLine) -> Vec<usize> {
+    (0..line.grid.len()).filter(|&i| line.state.status[i].is_active()).collect()
+}
+
+/// Normal forces of all lines after a turn [N/m].
+struct Pressed(Vec<f64>);
+
+impl Pressed {
+    fn of(lines: &[ContactLine]) -> Self {
+        Self(lines.iter().flat_map(|line| (0..line.grid.len()).map(|i| line.normal(i))).collect())
+    }
+
+    /// Largest change from others, over the mean nodal force of the nominal load \[1].
+    fn change_from(&self, before: &Self, load: f64) -> f64 {
+        let changes = self.0.iter().zip(&before.0).map(|(now, before)| (now - before).abs());
+        changes.fold(0.0, f64::max) * self.0.len() as f64 / load
+    }
+}
+
+/// State of a closed node that friction asks for.
+fn status(sticks: bool, along: f64) -> NodeStatus {
+    match sticks {
+        true => NodeStatus::Stick,
+        false if along < 0.0 => NodeStatus::SlipBackward,
+        false => NodeStatus::SlipForward,
+    }
+}
