@@ -41,10 +41,19 @@ fn driven(guess: f64, force: f64, mass: f64, time: &TimeDerivative) -> RigidMoti
     RigidMotion { drive, guess, gain, offset: -gain * guess, inertia: mass / WIDTH, momentum: 0.0 }
 }
 
-/// Largest shear of a line at its points over friction.
+/// Largest shear of a line at its points or nodes over friction.
 fn beyond(lines: &Lines) -> f64 {
     let of = |line: &wheelrail::contact::ContactState| {
-        let SolverState::Series(state) = &line.solver else { panic!("not on points") };
+        let traction = &line.traction;
+        let state = match &line.solver {
+            SolverState::Series(state) => state,
+            _ => {
+                let (shear, across, p) = (&traction.shear.value, &traction.lateral_shear.value, &traction.pressure.value);
+                let over = |i: usize| shear[i].hypot(across[i]) - traction.friction.coefficient * p[i];
+                let most = traction.friction.coefficient * traction.pressure_max.max(1.0);
+                return (0..p.len()).map(|i| over(i) / most).fold(0.0, f64::max);
+            }
+        };
         let (pressure, mu) = (&state.tractions.pressure, line.traction.friction.coefficient);
         let places: [f64; 12] = std::array::from_fn(|i| {
             pressure.centre + pressure.half_width * (std::f64::consts::PI * (i + 1) as f64 / 13.0).cos()
@@ -154,6 +163,15 @@ fn transients(count: u64, spaces: &HalfSpaces, mass: f64) -> Count {
 #[test]
 fn ten_thousand_random_steps_are_solved_within_the_cone_and_none_costs_five_times_the_mean() {
     transients(1000, &HalfSpaces::sideways(1.0, 5), 0.0).check("held", 5.0);
+}
+
+#[test]
+fn random_steps_are_solved_on_nodes_with_velocities_held_and_free() {
+    for (aspect, lines, nodes) in [(1.0, 5, 10), (0.5, 7, 10), (2.0, 7, 20)] {
+        let spaces = HalfSpaces::sideways_on_nodes(aspect, lines, nodes);
+        transients(100, &spaces, 0.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, held"), 5.0);
+        transients(100, &spaces, 500.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, free"), 5.0);
+    }
 }
 
 #[test]

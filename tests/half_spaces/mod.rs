@@ -205,7 +205,7 @@ impl HalfSpaces {
         start: &Lines,
         scratch: &mut ContactScratch,
     ) -> Result<Lines, ContactError> {
-        let layout = self.layout(load);
+        let layout = self.layout(if load > 0.0 { load } else { LOAD });
         let [smooth, nodes] = &self.bodies;
         let (bodies, logarithms) = match start.iter().all(|line| line.ports == Ports::Smooth) {
             true => (smooth, None),

@@ -97,6 +97,10 @@ impl ActiveSet<'_> {
     fn press(&mut self) -> Result<Pressed, ContactError> {
         let Self { lines, axes, memory, penalties, problem, .. } = self;
         let rules = Rules::new(&lines[0], penalties[0], problem.nominal_load, 1.0, false);
+        // A static problem needs a support.
+        if problem.rigid.height.gain == 0.0 && axes.seeks(Axis::Height) {
+            states::support(lines);
+        }
         let SearchMemory { pressing, solver, rows, .. } = &mut **memory;
         let settled = pressing.press(lines, axes, &rules, PRESSED, (solver, rows))?;
         for line in lines.iter_mut() {
@@ -106,8 +110,7 @@ impl ActiveSet<'_> {
                 }
             }
         }
-        let held = problem.rigid.height.gain != 0.0 || !axes.seeks(Axis::Height);
-        match settled && (held || !states::support(lines)) {
+        match settled {
             true => Ok(Pressed::of(lines)),
             false => Err(ContactError::NotConverged { iterations: PRESSED.most }),
         }
