@@ -30,6 +30,8 @@ const TELLING: f64 = 1e-3;
 /// Violation of friction that ends Newton's method at most, and the share of that before which does \[1].
 const ROUGHEST: f64 = 1e-2;
 const SHARE: f64 = 1e-3;
+/// Way of the material in a step, over the distance of the nodes, at which it stands \[1].
+const STANDS: f64 = 1e-9;
 /// Numbers of closed nodes of a line for which there is a search.
 const MOST_NODES: usize = 256;
 
@@ -62,7 +64,7 @@ impl ActiveSet<'_> {
         let mut pressed = self.press()?;
         for turn in 1..=MOST {
             self.evaluate();
-            let settled = self.edges_settled();
+            let settled = self.edges_settled() || self.stands();
             let relieved = self.update_retarded().abs() / self.problem.nominal_load;
             let violation = self.shear(linear_laws)?;
             let braked = self.brakes_change();
@@ -80,6 +82,13 @@ impl ActiveSet<'_> {
             }
         }
         Err(ContactError::NotConverged { iterations: MOST })
+    }
+
+    /// True if the material moves by so little in the step that it does not matter where it comes from.
+    fn stands(&self) -> bool {
+        let moves = |line: &ContactLine| (line.traction.rigid.travel + line.rim_velocity()).abs();
+        let cell = |line: &ContactLine| STANDS * line.problem.time.a0 * line.grid.spacing;
+        self.lines.iter().all(|line| moves(line) < cell(line))
     }
 
     /// Takes displacements, gaps and slips of the present forces and motions.
