@@ -48,7 +48,8 @@ fn beyond(lines: &Lines) -> f64 {
         let state = match &line.solver {
             SolverState::Series(state) => state,
             _ => {
-                let (shear, across, p) = (&traction.shear.value, &traction.lateral_shear.value, &traction.pressure.value);
+                let (shear, across, p) =
+                    (&traction.shear.value, &traction.lateral_shear.value, &traction.pressure.value);
                 let over = |i: usize| shear[i].hypot(across[i]) - traction.friction.coefficient * p[i];
                 let most = traction.friction.coefficient * traction.pressure_max.max(1.0);
                 return (0..p.len()).map(|i| over(i) / most).fold(0.0, f64::max);

@@ -64,11 +64,6 @@ impl Config {
         if self.contact.shape.is_line() { self.model.contact_width } else { self.model.structural_width }
     }
 
-    /// True if steel yields in the contact: `physics.yielding`, but where the contact moves sideways steel stays elastic.
-    pub fn yields(&self) -> bool {
-        self.physics.yielding && !self.contact.lateral
-    }
-
     /// This configuration with all that may change during a run from another one.
     pub fn tuned_like(&self, other: &Config) -> Config {
         Config { tuning: other.tuning.clone(), files: other.files.clone(), ..self.clone() }

@@ -15,11 +15,7 @@ pub fn check(config: &Config) -> Result<(), ConfigError> {
             "contact.shape = line, whose contact has no width",
             "contact.shape = ellipse or rows",
         ),
-        (solver.contact.is_grid(), "solver.contact = grid", "solver.contact = auto"),
         (!solver.response.is_reduced(), "solver.response = full", "solver.response = reduced"),
-        (!config.wheel.profile.is_empty(), "a wheel.profile", "wheel.profile to nothing"),
-        (!config.rail.profile.is_empty(), "a rail.profile", "rail.profile to nothing"),
-        (config.damage.wear.is_on(), "damage.wear = t_gamma", "damage.wear = off"),
         (
             config.damping.rayleigh_stiffness > 0.0,
             "damping.rayleigh_stiffness above 0",
@@ -57,7 +53,7 @@ pub fn ranges(config: &Config) -> Vec<Dependent> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{ContactMethod, ContactShape};
+    use crate::config::{ContactShape, Response};
 
     fn refused(change: impl Fn(&mut Config), words: &[&str]) {
         let mut config = Config::default();
@@ -73,10 +69,9 @@ mod tests {
         let both = |other: &'static str, remedy: &'static str| ["contact.lateral = true", other, remedy];
         refused(|c| c.contact.shape = ContactShape::Line, &both("contact.shape = line", "set contact.shape = ellipse"));
         refused(
-            |c| c.solver.contact = ContactMethod::Grid,
-            &both("solver.contact = grid", "set solver.contact = auto"),
+            |c| c.solver.response = Response::Full,
+            &both("solver.response = full", "set solver.response = reduced"),
         );
-        refused(|c| c.wheel.profile = "flat(length=0.04)".to_owned(), &both("wheel.profile", "set wheel.profile"));
         refused(|c| c.wheel.lateral_damping = 1e3, &["wheel.lateral_damping = 1000", "wheel.lateral_stiffness = 0"]);
         let heavy = |c: &mut Config| (c.wheel.lateral_stiffness, c.wheel.lateral_tread_mass) = (1e8, 1e4);
         refused(heavy, &["wheel.lateral_tread_mass = 10000", "wheel.lateral_stiffness = 1e8"]);

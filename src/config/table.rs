@@ -221,7 +221,7 @@ parameters! {
             1072 expert thermoelastic_heating: bool = false, "Reversible (Gough-Joule) heating of compressed material";
             1073 expert yielding: bool = true,
                 "Steel yields: the pressure stays below 2.97 times the yield strength, less under the friction of a locked wheel, what it \
-                 cannot carry flattens the surface for good; with contact.lateral it stays elastic, and a warning says where it would yield";
+                 cannot carry flattens the surface for good";
         }
         /// Layout of the graded meshes.
         mesh: MeshParameters fixed {

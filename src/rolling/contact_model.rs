@@ -92,7 +92,7 @@ impl ContactModel {
             nominal_half_width: mechanics::nominal_half_width(config),
             width: config.width(),
             layer: config.contact.layer_flexibility,
-            yield_pressure: match config.yields() {
+            yield_pressure: match config.physics.yielding {
                 true => INDENTATION * config.material.yield_strength,
                 false => f64::INFINITY,
             },
@@ -273,7 +273,12 @@ impl ContactModel {
     pub fn hertzian_guess(&self, load: f64, at_rest: bool) -> ContactState {
         let share = if load > 0.0 { load / self.nominal_line_load() } else { 1.0 };
         let half_width = self.nominal_half_width * share.sqrt();
-        if at_rest { self.solver.touching_at_rest(half_width) } else { self.solver.touching(half_width) }
+        // Points stand, too, where the contact has two directions.
+        let sideways = self.patch.flexibility().is_some_and(|flexibility| flexibility.is_sideways());
+        match at_rest && !sideways {
+            true => self.solver.touching_at_rest(half_width),
+            false => self.solver.touching(half_width),
+        }
     }
 
     /// True if a driving force has jumped from what drove the hub in the last step, prescribed or reaction, or the

@@ -80,7 +80,7 @@ impl RollingModel {
         let grid = |pair: &Pair| ContactGrid::new(pair.surface_x.clone(), pair.spacing, pair.candidates.start);
         let points = Self::patch_reach(&config, &bodies, &surfaces).map(SeriesSolver::new);
         let solver: Box<dyn ContactSolver> = match points {
-            Some(points) if config.solver.contact.requires_patch() || config.contact.lateral => Box::new(points),
+            Some(points) if config.solver.contact.requires_patch() => Box::new(points),
             points => Box::new(NodeChoice::new(grid(&bodies), bodies.wide.as_deref().map(grid), points)),
         };
         Self::with_solver(config, bodies, surfaces, solver)

@@ -75,13 +75,13 @@ impl PatchLines {
             (_, Some(PatchRows { rows, shapes })) => PatchLayout::rows(rows, &shapes, material, lines, radius, width),
             (_, None) => PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load),
         };
-        if config.contact.lateral {
-            return Ok(Self::Sized(patch.sideways()));
-        }
+        // Soft steel and profiles make patches longer than those of the layout.
+        let patch =
+            if smooth && !(config.contact.lateral && config.physics.yielding) { patch } else { patch.with_room() };
+        let patch = if config.contact.lateral { patch.sideways() } else { patch };
         if smooth {
             return Ok(Self::Sized(patch));
         }
-        let patch = patch.with_room();
         Ok(Self::Constant {
             lines: patch.staying(load, longest_patch(config)),
             symmetric: patch.is_symmetric(),

@@ -122,7 +122,7 @@ fn unsettled(otherwise: String, config: &Config) -> String {
 
 /// The advice `otherwise`, and what helps where the run has flattened the wheel beyond the zone.
 fn flattened(zone: f64, config: &Config, otherwise: String) -> String {
-    if config.yields() || config.damage.wear.is_on() {
+    if config.physics.yielding || config.damage.wear.is_on() {
         format!("{otherwise}; where wear or yielding has flattened the wheel, {}", wider(zone, config))
     } else {
         otherwise

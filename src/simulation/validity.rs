@@ -138,7 +138,7 @@ impl Simulation {
             Limit::Zone => (load, AtMost(ZONE_LOAD * nominal)),
             Limit::Reach => (self.touching_reach(), AtMost(NEAR_END * self.model().rolling.reach)),
             Limit::Yield => {
-                let elastic = if config.yields() { 0.0 } else { 1.0 };
+                let elastic = if config.physics.yielding { 0.0 } else { 1.0 };
                 (elastic * outputs.contact_pressure_max, AtMost(INDENTATION * config.material.yield_strength))
             }
             Limit::Softening => {

@@ -1,15 +1,16 @@
 //! From points to a grid and back: both describe the same surfaces, and what the slip of the next step refers to, the
 //! tangential displacement at the last two times, goes over as a function of x.
 
-use crate::contact::line::{ContactGrid, FrictionHistory, GridState, LineHistory, NodeStatus};
+use crate::contact::line::{AcrossNodes, ContactGrid, FrictionHistory, GridState, LineHistory, NodeStatus};
 use crate::contact::series::chebyshev::TERMS;
 use crate::contact::series::constants::Constants;
 use crate::contact::series::tables::{POWER, PRESSURE};
-use crate::contact::series::{Arch, Past, SeriesState, Tractions};
+use crate::contact::series::{Arch, GridPast, Past, SeriesState, Tractions};
 use crate::contact::solver::{ContactState, Ports, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::POINTS;
 use crate::multistep::History;
+use crate::piecewise::Piecewise;
 use nalgebra::DVector;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -62,13 +63,18 @@ pub(super) fn to_grid(
     let force = |i: usize| if closed(i) { patch.tractions.shear(&[grid.x[i]])[0] * grid.width(i) } else { 0.0 };
     let friction = &from.history.friction;
     let span = duration(&friction.force, &friction.impulse);
-    let slip = |i: usize| if status(grid.x[i]).friction_direction() != 0.0 { traction.slip.at(grid.x[i]) } else { 0.0 };
+    let slips = |i: usize| status(grid.x[i]).friction_direction() != 0.0;
+    let slip = |i: usize| if slips(i) { traction.slip.at(grid.x[i]) } else { 0.0 };
     state.slip = (0..grid.len()).map(slip).collect();
+    if friction.fits(2 * POWER) {
+        state.across = across(patch, traction, grid, &closed, &slips);
+    }
     target.history.rim_angle = from.history.rim_angle;
+    let forces_of_all: Vec<f64> = (0..grid.len()).map(force).chain(state.across.force.iter().copied()).collect();
     target.history.friction = FrictionHistory {
-        force: (0..grid.len()).map(force).collect(),
-        impulse: (0..grid.len()).map(|i| span * force(i)).collect(),
-        slip: state.slip.clone(),
+        impulse: forces_of_all.iter().map(|force| span * force).collect(),
+        force: forces_of_all,
+        slip: state.slip.iter().chain(&state.across.slip).copied().collect(),
         slope_power: friction.slope_power,
         slope_work: friction.slope_work,
     };
@@ -79,6 +85,28 @@ pub(super) fn to_grid(
     let surface = [0, 1].map(|body| surface(constants, patch, &traction.surface[body], grid, body));
     target.traction = Traction { loads: [forces.clone(), -&forces], port_forces: forces, surface, ..traction.clone() };
     Some(target)
+}
+
+/// Lateral part of a line at the nodes that are `closed`, and of those that slip.
+fn across(
+    patch: &SeriesState,
+    traction: &Traction,
+    grid: &ContactGrid,
+    closed: &impl Fn(usize) -> bool,
+    slips: &impl Fn(usize) -> bool,
+) -> AcrossNodes {
+    let force =
+        |i: usize| if closed(i) { patch.tractions.lateral.density(&[grid.x[i]])[0] * grid.width(i) } else { 0.0 };
+    let slip = |i: usize| if slips(i) { traction.lateral_slip.at(grid.x[i]) } else { 0.0 };
+    let past = |k: usize, x: f64| match &patch.past[k] {
+        Past::Series(past) => past.across(&[x], past.share)[0],
+        past => past.across(&[x], 0.0)[0],
+    };
+    AcrossNodes {
+        force: (0..grid.len()).map(force).collect(),
+        slip: (0..grid.len()).map(slip).collect(),
+        gap: grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect(),
+    }
 }
 
 /// Displacements of a body at all nodes, but for a constant and the small strains under pressure.
@@ -129,10 +157,15 @@ fn on_points(
     let upstream = upstream(&from.traction);
     let x = constants.of_points.tractions.map(|t| pressure.centre + upstream * pressure.half_width * t);
     let next = |x: f64| grid.x.partition_point(|node| *node < x - 0.5 * grid.spacing).min(grid.len() - 1);
-    let directions = x.map(|x| state.status[next(x)].friction_direction() as i8);
-    let terms = constants.of_points.terms_of(&x.map(|x| from.traction.shear.at(x)), upstream);
-    let stick = Arch { count: TERMS, terms: std::array::from_fn(|k| terms[k]), ..pressure };
-    Tractions { pressure, slide: 0.0, stick, directions: Some(directions), lateral: Arch::default() }
+    let sideways = !state.across.force.is_empty();
+    let direction = |x: f64| state.status[next(x)].friction_direction();
+    let directions = x.map(|x| if sideways { direction(x).abs() as i8 } else { direction(x) as i8 });
+    let series = |shear: &Piecewise| {
+        let terms = constants.of_points.terms_of(&x.map(|x| shear.at(x)), upstream);
+        Arch { count: TERMS, terms: std::array::from_fn(|k| terms[k]), ..pressure }
+    };
+    let lateral = if sideways { series(&from.traction.lateral_shear) } else { Arch::default() };
+    Tractions { pressure, slide: 0.0, stick: series(&from.traction.shear), directions: Some(directions), lateral }
 }
 
 /// Nodes in the middle of a grid that have one spacing; those of a wide grid grow apart outside of them.
@@ -161,7 +194,8 @@ pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &Contac
     let mut pressure = Arch { centre, half_width, count: PRESSURE, ..Arch::default() };
     pressure.terms[0] = 2.0 * load / (PI * half_width);
     let side = upstream(traction);
-    let tractions = match share(state, side) {
+    let sideways = !state.across.force.is_empty();
+    let tractions = match share(state, side).filter(|_| !sideways) {
         Some((share, direction)) => {
             let mut stick = Arch::default();
             if share > 0.0 {
@@ -179,7 +213,9 @@ pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &Contac
     };
     let history = |before: bool| {
         let value = |h: &History| if before { h.before } else { h.now };
-        Past::Grid(grid.x[even.start], grid.spacing, state.tangential_gap[even.clone()].iter().map(value).collect())
+        let values = |gap: &[History]| gap.get(even.clone()).unwrap_or_default().iter().map(value).collect();
+        let (along, across) = (values(&state.tangential_gap), values(&state.across.gap));
+        Past::Grid(GridPast { first: grid.x[even.start], spacing: grid.spacing, along, across })
     };
     let friction = friction_history(constants, &tractions, side, from);
     let patch = SeriesState { tractions, past: [history(false), history(true)], ..SeriesState::default() };
@@ -215,10 +251,16 @@ fn friction_history(constants: &Constants, tractions: &Tractions, side: f64, fro
     let shear = tractions.shear(&places);
     let force: [f64; POWER] = std::array::from_fn(|q| half * tables.weights[q] * shear[q]);
     let span = duration(&before.force, &before.impulse);
+    let (mut force, mut slip) = (force.to_vec(), places.map(|x| from.traction.slip.at(x)).to_vec());
+    if tractions.lateral.half_width > 0.0 {
+        let across = tractions.lateral.density(&places);
+        force.extend((0..POWER).map(|q| half * tables.weights[q] * across[q]));
+        slip.extend(places.map(|x| from.traction.lateral_slip.at(x)));
+    }
     FrictionHistory {
-        force: force.to_vec(),
-        impulse: force.map(|f| span * f).to_vec(),
-        slip: places.map(|x| from.traction.slip.at(x)).to_vec(),
+        impulse: force.iter().map(|f| span * f).collect(),
+        force,
+        slip,
         slope_power: before.slope_power,
         slope_work: before.slope_work,
     }

@@ -3,7 +3,6 @@
 use super::chebyshev::Arch;
 use super::points::COUNT;
 use super::series_line::SeriesLine;
-use super::state::Past;
 use super::tables::POWER;
 use crate::contact::cone::AlongAcross;
 use crate::contact::flexibility::values;
@@ -39,10 +38,7 @@ impl SeriesLine<'_> {
             std::array::from_fn(|i| self.rigid.lateral + spin * x[i] + speed * kernel.factor * cauchy[i] + by_lines[i]);
         if !time.is_stationary() {
             let (own, total) = (shear.logarithm(x), kernel.reach * shear.total());
-            let [last, before] = self.before.past.each_ref().map(|past| match past {
-                Past::Series(past) => past.across(x, line.share),
-                Past::Grid(..) => [0.0; N],
-            });
+            let [last, before] = self.before.past.each_ref().map(|past| past.across(x, line.share));
             for i in 0..N {
                 let now = 2.0 * kernel.factor * (total - own[i]);
                 slip[i] += time.a0 * now + time.a1 * last[i] + time.a2 * before[i];

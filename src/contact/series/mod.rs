@@ -39,4 +39,4 @@ mod together;
 
 pub use chebyshev::Arch;
 pub use solver::SeriesSolver;
-pub use state::{Past, SeriesState, Tractions};
+pub use state::{GridPast, Past, SeriesState, Tractions};

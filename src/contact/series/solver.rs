@@ -93,6 +93,9 @@ impl SeriesSolver {
     /// True if some of the material under a `traction` sticks and hardly moves, with a margin.
     pub fn stands(rigid: &PerAxis<RigidMotion>, problem: &LineProblem, traction: &Traction) -> bool {
         let half_width = traction.extent().map_or(0.0, Interval::half_length);
+        if problem.is_sideways() {
+            return false;
+        }
         traction.stick_fraction > 0.0 && Self::hardly_moves(rigid, problem, 2.0 * SHORTEST_WAY * half_width)
     }
 
@@ -194,12 +197,7 @@ impl ContactSolver for SeriesSolver {
         found: &mut [&mut ContactState],
         scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
-        // Nothing else takes over a contact that moves sideways.
-        let sideways = problem.lines.iter().any(LineProblem::is_sideways);
-        self.find(problem, start, found, scratch).map_err(|error| match error {
-            ContactError::Unsuited { reason } if sideways => ContactError::Sideways { reason },
-            error => error,
-        })
+        self.find(problem, start, found, scratch)
     }
 
     fn fits(&self, state: &ContactState) -> bool {

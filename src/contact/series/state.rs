@@ -36,8 +36,28 @@ pub struct Tractions {
 pub enum Past {
     /// Found on a patch.
     Series(SeriesPast),
-    /// Found on a grid: the first node \[m], the spacing \[m] and the values \[m].
-    Grid(f64, f64, Vec<f64>),
+    /// Found on a grid.
+    Grid(GridPast),
+}
+
+/// Displacements of the nodes of a grid.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GridPast {
+    /// Place of the first node \[m].
+    pub first: f64,
+    /// Distance of the nodes \[m].
+    pub spacing: f64,
+    /// Displacements along \[m].
+    pub along: Vec<f64>,
+    /// Displacements across \[m]; empty: there are none.
+    pub across: Vec<f64>,
+}
+
+impl GridPast {
+    /// Displacements at x by those of the nodes \[m].
+    fn between<const N: usize>(&self, nodes: &[f64], x: &[f64; N]) -> [f64; N] {
+        if nodes.len() > 3 { x.map(|x| cubic((x - self.first) / self.spacing, nodes)) } else { [0.0; N] }
+    }
 }
 
 /// Displacement by the half-planes under tractions, `−2κ ∫ q ln|x − s| ds`, and by all else.
@@ -137,7 +157,7 @@ impl Uncorrected {
 
 impl Default for Past {
     fn default() -> Self {
-        Self::Grid(0.0, 1.0, Vec::new())
+        Self::Grid(GridPast { spacing: 1.0, ..GridPast::default() })
     }
 }
 
@@ -233,8 +253,8 @@ impl Past {
                     && tractions.stick.is_sound()
                     && smooth.iter().all(|u| u.is_finite())
             }
-            Past::Grid(first, spacing, values) => {
-                first.is_finite() && *spacing > 0.0 && values.iter().all(|u| u.is_finite())
+            Past::Grid(GridPast { first, spacing, along, across }) => {
+                first.is_finite() && *spacing > 0.0 && along.iter().chain(across).all(|u| u.is_finite())
             }
         }
     }
@@ -253,8 +273,15 @@ impl Past {
                     smooth.at(x[i]) + by_lines[i] + own + layer[i] - 2.0 * carried * kernel * logarithm[i]
                 })
             }
-            Past::Grid(first, spacing, values) if values.len() > 3 => x.map(|x| cubic((x - first) / spacing, values)),
-            Past::Grid(..) => [0.0; N],
+            Past::Grid(past) => past.between(&past.along, x),
+        }
+    }
+
+    /// Displacement across at x \[m], carried on by a line with the given share of the width.
+    pub fn across<const N: usize>(&self, x: &[f64; N], share: f64) -> [f64; N] {
+        match self {
+            Past::Series(past) => past.across(x, share),
+            Past::Grid(past) => past.between(&past.across, x),
         }
     }
 }

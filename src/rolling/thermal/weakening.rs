@@ -40,7 +40,7 @@ impl WeakSteel {
         let melts = material.latent_heat > 0.0 && reference < material.solidus;
         // Beyond the solidus nothing is known of strength, and bodies that are so hot as a whole are no steel.
         let start = reference + config.thermal.wheel_excess.max(0.0);
-        Self { melts, yields: config.yields() && start < material.solidus, reference, material }
+        Self { melts, yields: config.physics.yielding && start < material.solidus, reference, material }
     }
 
     /// Absolute temperature at which melting is complete \[K]; `None` where it does not act on friction.

@@ -18,7 +18,7 @@ impl Simulation {
             Limit::Patch => patch(value, bound),
             Limit::Zone => zone(value, bound),
             Limit::Reach => reach(self, value, bound),
-            Limit::Yield => yielding(self, value, bound),
+            Limit::Yield => yielding(value, bound),
             Limit::Softening => softening(value, bound),
             Limit::Melting => melting(value, bound),
             Limit::StickSlip => stick_slip(self, value, bound),
@@ -86,14 +86,10 @@ fn reach(simulation: &Simulation, value: f64, bound: f64) -> String {
     )
 }
 
-fn yielding(simulation: &Simulation, value: f64, bound: f64) -> String {
-    let remedy = match simulation.model().config().contact.lateral {
-        true => "steel does not yield with contact.lateral: set it to false",
-        false => "set physics.yielding",
-    };
+fn yielding(value: f64, bound: f64) -> String {
     format!(
         "peak pressure {:.0} MPa is above {:.0} MPa, the most that steel of material.yield_strength carries: the \
-         bodies stay elastic, and patch, forces and temperatures are not those of steel that yields; {remedy}, \
+         bodies stay elastic, and patch, forces and temperatures are not those of steel that yields; set physics.yielding, \
          or check drive.load and the size of the patch (model.contact_width, contact.rail_lateral_radius, or \
          contact.rows and contact.rows_load)",
         value * 1e-6,
