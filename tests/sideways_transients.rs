@@ -166,12 +166,13 @@ fn ten_thousand_random_steps_are_solved_within_the_cone_and_none_costs_five_time
     transients(1000, &HalfSpaces::sideways(1.0, 5), 0.0).check("held", 5.0);
 }
 
+/// Slips by shear are kept from turn to turn, so that a mean step takes few linear laws.
 #[test]
 fn random_steps_are_solved_on_nodes_with_velocities_held_and_free() {
     for (aspect, lines, nodes) in [(1.0, 5, 10), (0.5, 7, 10), (1.0, 7, 20), (2.0, 7, 20)] {
         let spaces = HalfSpaces::sideways_on_nodes(aspect, lines, nodes);
-        transients(100, &spaces, 0.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, held"), 5.0);
-        transients(100, &spaces, 500.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, free"), 5.0);
+        transients(100, &spaces, 0.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, held"), 7.0);
+        transients(100, &spaces, 500.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, free"), 7.0);
     }
 }
 

@@ -17,7 +17,9 @@ fn sideways(lines: usize, change: impl Fn(&mut Config)) -> Arc<Model> {
     (config.thermal.enabled, config.initial.velocity) = (false, 20.0);
     config.physics.yielding = false;
     config.tuning.tolerance = 0.0;
-    if std::env::var("GRIDDED").is_ok() { config.solver.contact = wheelrail::config::ContactMethod::Grid; }
+    if std::env::var("GRIDDED").is_ok() {
+        config.solver.contact = wheelrail::config::ContactMethod::Grid;
+    }
     change(&mut config);
     model(config)
 }

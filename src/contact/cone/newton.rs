@@ -37,7 +37,7 @@ pub struct Begun<const N: usize> {
 /// The tangential problem of all lines under given pressures, and where the search is in it.
 pub struct Newton<'a, const N: usize> {
     problems: &'a mut [ConeProblem<N>],
-    coupling: TangentialCoupling,
+    coupling: &'a mut TangentialCoupling,
     pub shears: Vec<AlongAcross<N>>,
     /// Present motions.
     pub rigid: PerAxis<f64>,
@@ -55,7 +55,7 @@ pub struct Newton<'a, const N: usize> {
 impl<'a, const N: usize> Newton<'a, N> {
     /// Begins with given shears, with motions that differ from those of the known slip by `motion`.
     pub fn new(
-        coupling: TangentialCoupling,
+        coupling: &'a mut TangentialCoupling,
         problems: &'a mut [ConeProblem<N>],
         (shears, motion): (&[AlongAcross<N>], PerAxis<f64>),
     ) -> Self {
@@ -78,7 +78,7 @@ impl<'a, const N: usize> Newton<'a, N> {
     fn judge(&mut self) {
         let lines = self.problems.iter().zip(&self.shears);
         let moments: Vec<_> = lines.map(|(problem, shear)| problem.moments(shear)).collect();
-        let TangentialCoupling { between, motions, base, .. } = &self.coupling;
+        let TangentialCoupling { between, motions, base, .. } = &*self.coupling;
         let slips = |at: usize| {
             let mut sum = sum_between(between, at, &moments);
             for FreeMotion { axis, slips, .. } in motions {
@@ -101,7 +101,7 @@ impl<'a, const N: usize> Newton<'a, N> {
 
     /// Largest violation of friction and balances \[1].
     pub fn largest(&self) -> f64 {
-        let TangentialCoupling { motions, radius, friction, .. } = &self.coupling;
+        let TangentialCoupling { motions, radius, friction, .. } = &*self.coupling;
         let balances = motions.iter().zip(&self.unbalance).map(|(motion, missing)| {
             let axis = motion.axis;
             let rounding = ROUNDING * (motion.resistance(axis) * self.rigid[axis]).abs();
@@ -151,7 +151,7 @@ impl<'a, const N: usize> Newton<'a, N> {
         let resists = |(problem, share): (&ConeProblem<N>, &f64)| share * problem.resistance();
         let resistance = strength * self.problems.iter().zip(&self.coupling.shares).map(resists).sum::<f64>();
         self.problems.iter_mut().zip(shears).for_each(|(problem, shear)| problem.draw(strength, shear));
-        let TangentialCoupling { motions, base, radius, .. } = &mut self.coupling;
+        let TangentialCoupling { motions, base, radius, .. } = &mut *self.coupling;
         for FreeMotion { axis, drawn, .. } in motions {
             let arm = axis.arm(*radius);
             *drawn = [resistance * arm * arm, self.rigid[*axis] - base[*axis]];
@@ -216,7 +216,7 @@ impl<'a, const N: usize> Newton<'a, N> {
     }
 
     fn problem(&self) -> ConeProblems<'_, N> {
-        ConeProblems { lines: self.problems, coupling: &self.coupling, unbalance: &self.unbalance }
+        ConeProblems { lines: self.problems, coupling: &*self.coupling, unbalance: &self.unbalance }
     }
 
     /// One step with the linear law; `None`: there is none.
@@ -315,7 +315,7 @@ mod tests {
             missing: force * FRAC_PI_2,
             drawn: [0.0; 2],
         };
-        let coupling = TangentialCoupling {
+        let mut coupling = TangentialCoupling {
             between: vec![[[0.0; SLIPS]; SLIPS]],
             motions: held.map(motion).into_iter().collect(),
             base: PerAxis::default(),
@@ -324,7 +324,7 @@ mod tests {
             friction: FRAC_PI_2,
         };
         let mut problems = [problem];
-        let mut newton = Newton::new(coupling, &mut problems, (&[[[0.0; N]; 2]], PerAxis::default()));
+        let mut newton = Newton::new(&mut coupling, &mut problems, (&[[[0.0; N]; 2]], PerAxis::default()));
         newton.run(1e-12).unwrap();
         let (shear, lateral) = (newton.shears[0], newton.rigid.lateral);
         let moments = problems[0].moments(&shear).map(|moment| moment / FRAC_PI_2);

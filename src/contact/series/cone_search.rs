@@ -117,7 +117,8 @@ impl ConeSearch {
             }
             self.most[k] = now;
         }
-        let mut newton = Newton::new(contact.coupling(), &mut problems, (&self.uncorrected, self.uncorrected_motion));
+        let mut coupling = contact.coupling();
+        let mut newton = Newton::new(&mut coupling, &mut problems, (&self.uncorrected, self.uncorrected_motion));
         let [without, with] = &mut self.linear;
         newton.linear = without.take();
         let mut violation = newton.largest();

@@ -8,6 +8,7 @@ use crate::axes::{Axis, PerAxis};
 use crate::contact::cone::{FreeMotion, SLIPS, TangentialCoupling};
 use crate::contact::flexibility::{Between, ByMoments, ByPowers, slip_of_field};
 use crate::contact::line::contact_line::ContactLine;
+use crate::linalg::vectorised::dot;
 use crate::linalg::{DenseSystem, POINTS};
 use std::f64::consts::PI;
 
@@ -70,24 +71,42 @@ struct SmoothSlips {
 }
 
 impl ActiveSet<'_> {
-    /// Coupling of all lines and free motions in the present iterate.
+    /// Coupling of all lines and free motions in the present iterate, but for what their balances miss.
     pub fn coupling(&mut self) -> TangentialCoupling {
         let smooth: Vec<_> = self.lines.iter().map(|line| self.smooth_slips(line)).collect();
-        let between = self.between(&smooth);
-        let axes: Vec<Axis> = Axis::along().filter(|axis| self.axes.seeks(*axis) && !self.axes.holds(*axis)).collect();
-        let mut coupling = TangentialCoupling {
-            between,
-            motions: Vec::new(),
+        let axes: Vec<Axis> = self.free_axes().collect();
+        TangentialCoupling {
+            between: self.between(&smooth),
+            motions: axes.into_iter().map(|axis| self.free_motion(axis, &smooth)).collect(),
             base: self.lines[0].traction.rigid,
             radius: self.lines[0].problem.radius(),
             shares: self.lines.iter().map(|line| line.problem.share).collect(),
-            friction: self.friction_of_all().max(LEAST_FRICTION * self.problem.nominal_load),
-        };
-        for axis in axes {
-            let motion = self.free_motion(axis, &smooth);
-            coupling.motions.push(motion);
+            friction: 0.0,
         }
-        coupling
+    }
+
+    /// Axes along the surfaces whose motions are sought and not held by a brake.
+    pub fn free_axes(&self) -> impl Iterator<Item = Axis> {
+        Axis::along().filter(|axis| self.axes.seeks(*axis) && !self.axes.holds(*axis))
+    }
+
+    /// Takes present motions, friction and what balances miss without the present shear.
+    pub fn take_balances(&mut self, coupling: &mut TangentialCoupling) {
+        coupling.base = self.lines[0].traction.rigid;
+        coupling.friction = self.friction_of_all().max(LEAST_FRICTION * self.problem.nominal_load);
+        let moments: Vec<[f64; SLIPS]> = self.lines.iter().map(moments).collect();
+        for motion in &mut coupling.motions {
+            motion.missing = -self.residual(motion.axis) - motion.pulls(&moments);
+        }
+    }
+
+    /// Residual of the balance of a motion in the present iterate [N/m, N].
+    fn residual(&mut self, axis: Axis) -> f64 {
+        let Self { lines, axes, memory, .. } = self;
+        let balance = axes.row(axis, lines, &mut memory.rows);
+        let by_forces = |(line, row): (&ContactLine, &Vec<f64>)| dot(row, line.traction.port_forces.as_slice());
+        let of_forces: f64 = lines.iter().zip(&memory.rows).map(by_forces).sum();
+        balance.constant + balance.motions.dot(lines[0].traction.rigid) + of_forces
     }
 
     /// Force of friction that all lines together bear [N/m].
@@ -145,40 +164,35 @@ impl ActiveSet<'_> {
     /// A motion that is free, about the present iterate.
     fn free_motion(&mut self, axis: Axis, smooth: &[SmoothSlips]) -> FreeMotion {
         let Self { lines, axes, memory, problem, .. } = self;
-        let rows = &mut memory.rows;
-        let balance = axes.row(axis, lines, rows);
-        let (mut missing, rigid) = (balance.constant, lines[0].traction.rigid);
-        missing += balance.motions.dot(rigid);
-        let mut pulls = Vec::new();
-        for ((line, smooth), row) in lines.iter().zip(smooth).zip(&*rows) {
-            missing += row.iter().zip(line.traction.port_forces.iter()).map(|(c, f)| c * f).sum::<f64>();
-            let along = smooth.sampled.polynomial(|i| -row[line.grid.port(i)]);
-            let mut pull = [0.0; SLIPS];
-            pull[..POINTS].copy_from_slice(&along);
-            if axis == Axis::Lateral {
-                pull = [0.0; SLIPS];
-                pull[POINTS] = line.problem.share;
-            }
-            pulls.push(pull);
+        let resistance = axes.row(axis, lines, &mut memory.rows).motions;
+        let pull = |((line, smooth), row): ((&ContactLine, &SmoothSlips), &Vec<f64>)| match axis {
+            Axis::Lateral => joined(ByPowers::default(), [line.problem.share, 0.0]),
+            _ => joined(smooth.sampled.polynomial(|i| -row[line.grid.port(i)]), [0.0; 2]),
+        };
+        let slip = |(line, smooth): (&ContactLine, &SmoothSlips)| {
+            let turned = problem.spin.by(axis) * line.problem.patch.map_or(0.0, |patch| patch.half_length);
+            joined(smooth.by_motions[axis], [if axis == Axis::Lateral { 1.0 } else { 0.0 }, turned])
+        };
+        FreeMotion {
+            axis,
+            slips: lines.iter().zip(smooth).map(slip).collect(),
+            pulls: lines.iter().zip(smooth).zip(&memory.rows).map(pull).collect(),
+            resistance,
+            missing: 0.0,
+            drawn: [0.0; 2],
         }
-        let slips = lines.iter().zip(smooth).map(|(line, smooth)| {
-            let mut slips = [0.0; SLIPS];
-            slips[..POINTS].copy_from_slice(&smooth.by_motions[axis]);
-            slips[POINTS] = if axis == Axis::Lateral { 1.0 } else { 0.0 };
-            slips[POINTS + 1] = problem.spin.by(axis) * line.problem.patch.map_or(0.0, |patch| patch.half_length);
-            slips
-        });
-        let slips: Vec<_> = slips.collect();
-        let moments = lines.iter().map(|line| {
-            let (along, across) = (&line.iterate.others.moments, &line.iterate.across.moments);
-            std::array::from_fn::<f64, SLIPS, _>(|k| if k < POINTS { along[k] } else { across[k - POINTS] })
-        });
-        let present: f64 = moments
-            .zip(&pulls)
-            .map(|(moments, pull)| pull.iter().zip(moments).map(|(pull, moment)| pull * moment).sum::<f64>())
-            .sum();
-        FreeMotion { axis, slips, pulls, resistance: balance.motions, missing: -missing - present, drawn: [0.0; 2] }
     }
+}
+
+/// Coefficients along, and the first ones across.
+fn joined(along: ByPowers, across: [f64; 2]) -> [f64; SLIPS] {
+    std::array::from_fn(|k| if k < POINTS { along[k] } else { across.get(k - POINTS).copied().unwrap_or(0.0) })
+}
+
+/// Moments of the present shear of a line, along, then across [N/m].
+fn moments(line: &ContactLine) -> [f64; SLIPS] {
+    let (along, across) = (&line.iterate.others.moments, &line.iterate.across.moments);
+    std::array::from_fn(|k| if k < POINTS { along[k] } else { across[k - POINTS] })
 }
 
 /// Slips along of a line by unit moments of another one through the bodies.

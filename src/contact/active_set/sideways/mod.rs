@@ -3,21 +3,22 @@
 //! Normal forces are those of the shear of before ([`super::pressing`]); the shear along and across all lines, with the
 //! motions that are free, is that of these normal forces ([`crate::contact::cone`]). Each turn begins with the exact gaps and
 //! slips of the last one, so that what its equations leave out only makes turns more: [`slips`] has the flexibility of a
-//! line by itself, [`coupling`] what lines and motions do to each other. Theory: `docs/theory/sideways.md`.
+//! line by itself, [`coupling`] what lines and motions do to each other, [`friction`] the shear of a turn. Theory: `docs/theory/sideways.md`.
 
 mod coupling;
+mod friction;
 mod slips;
 
 use super::coefficients::{FollowedLaws, Obedience, Progress};
 use super::pressing::Thoroughness;
 use super::search::{ActiveSet, SearchMemory};
 use super::states::{self, Rules};
-use crate::axes::{Axis, PerAxis};
-use crate::contact::cone::{AlongAcross, ConeVerdict, Newton};
+use crate::axes::Axis;
 use crate::contact::error::ContactError;
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::NodeStatus;
 use crate::contact::line::{exchange, finish, zone};
+use friction::Prepared;
 
 /// Turns at most.
 const MOST: usize = 120;
@@ -27,13 +28,8 @@ const PRESSED: Thoroughness = Thoroughness { most: 80, together: 30, yields: tru
 const TOLERANCE: f64 = 1e-9;
 /// Violation and change at which coefficients of friction begin to follow their laws \[1].
 const TELLING: f64 = 1e-3;
-/// Violation of friction that ends Newton's method at most, and the share of that before which does \[1].
-const ROUGHEST: f64 = 1e-2;
-const SHARE: f64 = 1e-3;
 /// Way of the material in a step, over the distance of the nodes, at which it stands \[1].
 const STANDS: f64 = 1e-9;
-/// Numbers of closed nodes of a line for which there is a search.
-const MOST_NODES: usize = 256;
 
 impl ActiveSet<'_> {
     /// Iterates from the states and forces of the start to the solution of a contact with lateral tractions; returns the times
@@ -51,34 +47,49 @@ impl ActiveSet<'_> {
             line.take_surface_angle();
             line.frame.rim_angle = line.predicted_angle();
         }
-        let mut linear_laws = 0;
-        let turns = self.turn_about(laws, &mut linear_laws)?;
-        self.lines.iter_mut().for_each(|line| line.traction.iterations = turns);
+        let pressed = self.press()?;
+        let mut turns = Turns { laws, pressed, made: 0, linear_laws: 0 };
+        let ended = self.turn_about::<32>(&mut turns)?
+            || self.turn_about::<64>(&mut turns)?
+            || self.turn_about::<128>(&mut turns)?
+            || self.turn_about::<256>(&mut turns)?;
+        if !ended {
+            return Err(ContactError::Sideways {
+                reason: "more than 256 nodes of a line touch (mesh.elements_per_half_width)",
+            });
+        }
+        self.lines.iter_mut().for_each(|line| line.traction.iterations = turns.made);
         self.lines.iter().try_for_each(zone::check)?;
         self.lines.iter_mut().for_each(finish::finish);
-        Ok(linear_laws)
+        Ok(turns.linear_laws)
     }
 
-    /// Finds pressure and shear by turns; returns their number.
-    fn turn_about(&mut self, mut laws: FollowedLaws, linear_laws: &mut usize) -> Result<usize, ContactError> {
-        let mut pressed = self.press()?;
-        for turn in 1..=MOST {
+    /// Finds pressure and shear by turns; false: more than N nodes of a line touch.
+    fn turn_about<const N: usize>(&mut self, turns: &mut Turns) -> Result<bool, ContactError> {
+        let (mut prepared, mut last) = (None, f64::INFINITY);
+        while turns.made < MOST {
+            if self.lines.iter().any(|line| closed_nodes(line).len() > N) {
+                return Ok(false);
+            }
+            turns.made += 1;
             self.evaluate();
             let settled = self.edges_settled() || self.stands();
             let relieved = self.update_retarded().abs() / self.problem.nominal_load;
-            let violation = self.shear(linear_laws)?;
+            let mut friction = Prepared::<N>::renewed(prepared.take(), self, last);
+            let violation = friction.shear(self, &mut turns.linear_laws)?;
+            prepared = Some(friction);
             let braked = self.brakes_change();
-            let before = pressed;
-            pressed = self.press()?;
-            let change = violation.max(pressed.change_from(&before, self.problem.nominal_load)).max(relieved);
+            let pressed = self.press()?;
+            let change = pressed.change_from(&turns.pressed, self.problem.nominal_load).max(relieved).max(violation);
+            (turns.pressed, last) = (pressed, violation);
             let progress = match change {
                 change if change <= TOLERANCE && settled && !braked => Progress::Refined,
                 change if change <= TELLING => Progress::Settled,
                 _ => continue,
             };
-            if laws.follow(&mut self.lines, progress)? == Obedience::Obeyed && progress == Progress::Refined {
+            if turns.laws.follow(&mut self.lines, progress)? == Obedience::Obeyed && progress == Progress::Refined {
                 self.evaluate();
-                return Ok(turn);
+                return Ok(true);
             }
         }
         Err(ContactError::NotConverged { iterations: MOST })
@@ -131,40 +142,17 @@ impl ActiveSet<'_> {
         let rules = Rules::new(&lines[0], penalties[0], problem.nominal_load, 1.0, false);
         axes.update_brakes(lines, &mut memory.rows, rules.force * grid.len() as f64)
     }
+}
 
-    /// Finds the shear of all lines and the free motions under the present normal forces; returns how far friction and
-    /// balances were violated before \[1].
-    fn shear(&mut self, linear_laws: &mut usize) -> Result<f64, ContactError> {
-        let closed = |line: &ContactLine| line.state.status.iter().filter(|status| status.is_active()).count();
-        match self.lines.iter().map(closed).max().unwrap_or(0) {
-            0..=32 => self.shear_of::<32>(linear_laws),
-            33..=64 => self.shear_of::<64>(linear_laws),
-            65..=128 => self.shear_of::<128>(linear_laws),
-            129..=MOST_NODES => self.shear_of::<MOST_NODES>(linear_laws),
-            _ => Err(ContactError::Sideways { reason: "more than 256 nodes of a line touch (model.elements)" }),
-        }
-    }
-
-    fn shear_of<const N: usize>(&mut self, linear_laws: &mut usize) -> Result<f64, ContactError> {
-        let nodes: Vec<Vec<usize>> = self.lines.iter().map(closed_nodes).collect();
-        let coupling = self.coupling();
-        let shears: Vec<AlongAcross<N>> =
-            self.lines.iter().zip(&nodes).map(|(line, nodes)| slips::shears(line, nodes)).collect();
-        let mut problems = self.cone_problems(&nodes, &shears, &coupling);
-        let mut newton = Newton::new(coupling, &mut problems, (&shears, PerAxis::default()));
-        let violation = newton.largest();
-        newton.run((SHARE * violation).clamp(TOLERANCE, ROUGHEST))?;
-        *linear_laws += newton.linear_laws;
-        let (found, rigid) = (std::mem::take(&mut newton.shears), newton.rigid);
-        let states: Vec<_> = newton.verdicts.iter().map(ConeVerdict::states).collect();
-        for (((line, nodes), problem), (shear, states)) in
-            self.lines.iter_mut().zip(&nodes).zip(&problems).zip(found.iter().zip(&states))
-        {
-            line.traction.rigid = rigid;
-            slips::take(line, nodes, &problem.within(shear, 1.0), states);
-        }
-        Ok(violation)
-    }
+/// Where the turns are.
+struct Turns {
+    laws: FollowedLaws,
+    /// Normal forces of the last one.
+    pressed: Pressed,
+    /// Number of turns.
+    made: usize,
+    /// Times that the law of friction was made linear.
+    linear_laws: usize,
 }
 
 fn closed_nodes(line: &ContactLine) -> Vec<usize> {

@@ -1,8 +1,7 @@
 //! The problem of friction on one line under given normal forces: slips of its closed nodes by their own shear.
 
-use super::super::search::ActiveSet;
 use super::status;
-use crate::contact::cone::{AlongAcross, ConeProblem, SLIPS, SlipRows, TangentialCoupling};
+use crate::contact::cone::{AlongAcross, ConeProblem, SLIPS, SlipRows};
 use crate::contact::flexibility::{at, slip_of_field};
 use crate::contact::line::contact_line::ContactLine;
 use crate::linalg::POINTS;
@@ -18,7 +17,7 @@ pub fn shears<const N: usize>(line: &ContactLine, nodes: &[usize]) -> AlongAcros
 }
 
 /// Gives a line the shear at its closed `nodes`, and their states.
-pub fn take<const N: usize>(line: &mut ContactLine, nodes: &[usize], shear: &AlongAcross<N>, states: &[i8; N]) {
+pub fn give<const N: usize>(line: &mut ContactLine, nodes: &[usize], shear: &AlongAcross<N>, states: &[i8; N]) {
     line.state.across.force.fill(0.0);
     for (place, &i) in nodes.iter().enumerate() {
         let port = line.grid.port(i);
@@ -28,47 +27,35 @@ pub fn take<const N: usize>(line: &mut ContactLine, nodes: &[usize], shear: &Alo
     }
 }
 
-impl ActiveSet<'_> {
-    /// Problems of all lines with the slips of the present iterate, in which the closed `nodes` have the given shears.
-    pub fn cone_problems<const N: usize>(
-        &mut self,
-        nodes: &[Vec<usize>],
-        shears: &[AlongAcross<N>],
-        coupling: &TangentialCoupling,
-    ) -> Vec<ConeProblem<N>> {
-        let forces = &mut self.memory.rows[0];
-        let lines = self.lines.iter().zip(nodes);
-        let rows: Vec<_> = lines.map(|(line, nodes)| slip_rows::<N>(line, nodes, forces)).collect();
-        let moments: Vec<[f64; SLIPS]> = rows.iter().zip(shears).map(|(rows, shear)| moments(rows, shear)).collect();
-        let parts = self.lines.iter().zip(nodes).zip(rows).zip(shears).enumerate();
-        parts
-            .map(|(k, (((line, nodes), mut rows), shear))| {
-                let linear = rows.slips(shear, &coupling.by_lines(k, &moments));
-                let (mut bears, mut weights) = ([0.0; N], [0.0; N]);
-                for (place, &i) in nodes.iter().enumerate() {
-                    rows.known[0][place] = line.state.slip[i] - linear[0][place];
-                    rows.known[1][place] = line.state.across.slip[i] - linear[1][place];
-                    bears[place] = line.friction(i) * line.normal(i).max(0.0);
-                    weights[place] = 1.0;
-                }
-                let most = bears.iter().fold(0.0_f64, |most, bears| most.max(*bears));
-                ConeProblem::new(rows, None, &weights, bears, most)
-            })
-            .collect()
+/// Problem of a line with the slips of its closed `nodes` by their own shear.
+pub fn problem<const N: usize>(line: &ContactLine, nodes: &[usize]) -> ConeProblem<N> {
+    let weights = std::array::from_fn(|place| if place < nodes.len() { 1.0 } else { 0.0 });
+    ConeProblem::new(slip_rows(line, nodes), None, &weights, [0.0; N], 0.0)
+}
+
+/// Takes slips and friction of the present iterate, in which the closed `nodes` have the given shear and slip by other lines
+/// as given polynomials.
+pub fn take<const N: usize>(
+    line: &ContactLine,
+    nodes: &[usize],
+    problem: &mut ConeProblem<N>,
+    (shear, others): (&AlongAcross<N>, &[f64; SLIPS]),
+) {
+    let (mut slips, mut bears) = ([[0.0; N]; 2], [0.0; N]);
+    for (place, &i) in nodes.iter().enumerate() {
+        (slips[0][place], slips[1][place]) = (line.state.slip[i], line.state.across.slip[i]);
+        bears[place] = line.friction(i) * line.normal(i).max(0.0);
     }
+    problem.renew(slips, bears, (shear, others));
 }
 
-fn moments<const N: usize>(rows: &SlipRows<N>, shear: &AlongAcross<N>) -> [f64; SLIPS] {
-    std::array::from_fn(|k| rows.powers[k % POINTS].iter().zip(&shear[k / POINTS]).map(|(by, q)| by * q).sum())
-}
-
-/// Slips of the closed `nodes` by their own shear, without known parts; `forces` is memory for the coefficients of all
-/// ports.
-fn slip_rows<const N: usize>(line: &ContactLine, nodes: &[usize], forces: &mut [f64]) -> SlipRows<N> {
+/// Slips of the closed `nodes` by their own shear.
+fn slip_rows<const N: usize>(line: &ContactLine, nodes: &[usize]) -> SlipRows<N> {
     let mut rows =
         SlipRows { by_shear: [vec![[0.0; N]; N], vec![[0.0; N]; N]], known: [[0.0; N]; 2], powers: [[0.0; N]; POINTS] };
     let (Some(first), Some(last), Some(patch)) = (nodes.first(), nodes.last(), line.problem.patch) else { return rows };
     let window = line.grid.port(*first)..line.grid.port(*last) + 2;
+    let forces = &mut vec![0.0; line.grid.ports()];
     for (place, &i) in nodes.iter().enumerate() {
         line.slip_by_shared(i, line.problem.share, window.clone(), forces);
         line.add_slip(i, window.clone(), forces);
