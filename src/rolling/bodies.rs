@@ -98,7 +98,7 @@ impl Bodies {
 
     /// Wheel and rail as the contact of a state sees them.
     fn of(&self, state: &State) -> [&dyn BodyResponse; 2] {
-        let other = match ports_of(state) {
+        let other = match lines::ports(&state.lines) {
             Ports::Narrow => None,
             Ports::Wide => self.wide.as_ref(),
             Ports::Smooth => self.smooth.as_ref(),
@@ -151,7 +151,7 @@ impl Bodies {
     /// [J/m].
     fn energy_of_lines(&self, state: &State) -> f64 {
         let Some((apart, _)) = &self.apart else { return 0.0 };
-        let Some(logarithms) = self.logarithms(ports_of(state)) else {
+        let Some(logarithms) = self.logarithms(lines::ports(&state.lines)) else {
             // Solvers of smooth ports count the logarithms.
             let sum = |body: usize, component: usize| state.loads(body).iter().skip(component).step_by(2).sum::<f64>();
             let constant = |component: usize| apart.along(component).displacement(0.0);
@@ -173,7 +173,7 @@ impl Bodies {
         state: &State,
         cache: &mut OperatorCache,
     ) -> Result<Arc<Operators>, MechanicsError> {
-        let (recent, ports) = (&mut cache.recent, ports_of(state));
+        let (recent, ports) = (&mut cache.recent, lines::ports(&state.lines));
         if let Some(at) = recent.iter().position(|o| o.a0 == a0 && o.ports == ports) {
             recent[at..].rotate_left(1);
         } else {
@@ -278,9 +278,4 @@ fn along_base([travel, height]: [f64; 2]) -> PerAxis<f64> {
 /// Number of surface components that the contact of a state sees.
 pub fn ports(state: &State) -> usize {
     state.lines.first().map_or(0, |line| line.contact.traction.port_forces.len())
-}
-
-/// Ports of the lines of a state, the same for all.
-fn ports_of(state: &State) -> Ports {
-    state.lines.first().map_or_else(Ports::default, |line| line.contact.ports)
 }

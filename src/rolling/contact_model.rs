@@ -13,7 +13,8 @@ use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, InPatch,
-    LayoutsOfLoad, LineLayout, LineProblem, RetardedSurface, RigidMotion, Spin, SteelLimits, SurfaceResponse, Traction,
+    LayoutsOfLoad, LineLayout, LineProblem, Ports, RetardedSurface, RigidMotion, Spin, SteelLimits, SurfaceResponse,
+    Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
@@ -163,7 +164,7 @@ impl ContactModel {
         // More layouts count as iterations: they tell one branch from another.
         let (mut more, mut first) = (0, load);
         for _ in 0..MOST_LAYOUTS {
-            self.patch.lay_out(load, found);
+            self.patch.lay_out(load, lines::ports(start), found);
             let laid_out = self.solve_laid_out(step, start, (found, load), scratch);
             load = laid_out.map_err(|error| self.of_patch(error, load))?;
             if more == 0 {
@@ -215,7 +216,7 @@ impl ContactModel {
         let mut after: Vec<_> = found.iter_mut().map(|line| &mut line.contact).collect();
         self.solver.solve(&problem, &before, &mut after, scratch)?;
         let load = following.now.get();
-        self.patch.lay_out(load, found);
+        self.patch.lay_out(load, lines::ports(start), found);
         Ok(load)
     }
 
@@ -235,7 +236,7 @@ impl ContactModel {
             position: layout.position,
             kernel: layout.kernel,
             layer: self.layer,
-            patch: self.patch.flexibility().map(|flexibility| InPatch {
+            patch: self.patch.flexibility(start.contact.ports).map(|flexibility| InPatch {
                 flexibility,
                 line: number,
                 half_length: layout.half_length,
@@ -274,7 +275,7 @@ impl ContactModel {
         let share = if load > 0.0 { load / self.nominal_line_load() } else { 1.0 };
         let half_width = self.nominal_half_width * share.sqrt();
         // Points stand, too, where the contact has two directions.
-        let sideways = self.patch.flexibility().is_some_and(|flexibility| flexibility.is_sideways());
+        let sideways = self.patch.flexibility(Ports::Smooth).is_some_and(|flexibility| flexibility.is_sideways());
         match at_rest && !sideways {
             true => self.solver.touching_at_rest(half_width),
             false => self.solver.touching(half_width),
@@ -313,7 +314,7 @@ impl ContactModel {
     }
 }
 
-/// Layouts that follow the load in a search.
+/// Layouts that follow the load in a search on points.
 struct Following<'a> {
     model: &'a ContactModel,
     /// Layouts with which it begins, and their load \[N].
@@ -332,7 +333,8 @@ impl LayoutsOfLoad for Following<'_> {
         let ContactModel { patch, width, .. } = self.model;
         let next = patch.load_of(width * load);
         let missed = missed(self.now.get(), next);
-        let mut lines = (missed > SETTLED_LOAD && missed < LARGEST_CHANGE).then(|| patch.layouts(next))??;
+        let mut lines =
+            (missed > SETTLED_LOAD && missed < LARGEST_CHANGE).then(|| patch.layouts(next, Ports::Smooth))??;
         lines.iter_mut().zip(self.layouts).for_each(|(line, first)| line.gap -= first.gap);
         self.now.set(next);
         Some(lines)

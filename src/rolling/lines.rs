@@ -7,6 +7,7 @@
 use super::line::Line;
 use super::state::State;
 use crate::axes::PerAxis;
+use crate::contact::Ports;
 use nalgebra::DVector;
 use std::borrow::Cow;
 
@@ -114,6 +115,11 @@ impl State {
         let rim_angle = self.mean_under_load(|line| line.contact.rim_angle());
         [(self.motion.angle - rim_angle) * radius, self.motion.distance]
     }
+}
+
+/// Ports on which lines are.
+pub fn ports(lines: &[Line]) -> Ports {
+    lines.first().map_or(Ports::default(), |line| line.contact.ports)
 }
 
 /// Sum of a quantity per metre of width over lines, by their shares of the width.

@@ -2,7 +2,9 @@
 
 use super::line::Line;
 use crate::config::{Config, ContactShape, PatchRows, RowsError};
-use crate::contact::{HalfSpace, LineKernel, LineLayout, Logarithm, PatchFlexibility, PatchLayout, PatchMaterial};
+use crate::contact::{
+    HalfSpace, LineKernel, LineLayout, Logarithm, PatchFlexibility, PatchLayout, PatchMaterial, Ports,
+};
 use crate::material::Isotropic;
 use crate::surface;
 use std::sync::Arc;
@@ -42,7 +44,12 @@ pub enum PatchLines {
         flexibility: Option<Arc<PatchFlexibility>>,
     },
     /// Lines of a patch whose size follows from its load.
-    Sized(PatchLayout),
+    Sized {
+        /// The patch.
+        patch: PatchLayout,
+        /// The same on fixed nodes, where soft steel makes patches longer than those of the layout; `None`: it does not.
+        roomy: Option<PatchLayout>,
+    },
 }
 
 /// Half-length that patches of soft steel reach, over that under the nominal load \[1].
@@ -75,13 +82,13 @@ impl PatchLines {
             (_, Some(PatchRows { rows, shapes })) => PatchLayout::rows(rows, &shapes, material, lines, radius, width),
             (_, None) => PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load),
         };
-        // Soft steel and profiles make patches longer than those of the layout.
-        let patch =
-            if smooth && !(config.contact.lateral && config.physics.yielding) { patch } else { patch.with_room() };
-        let patch = if config.contact.lateral { patch.sideways() } else { patch };
+        let lateral = |patch: PatchLayout| if config.contact.lateral { patch.sideways() } else { patch };
         if smooth {
-            return Ok(Self::Sized(patch));
+            let roomy = config.contact.lateral && config.physics.yielding;
+            let roomy = roomy.then(|| lateral(patch.clone().with_room()));
+            return Ok(Self::Sized { patch: lateral(patch), roomy });
         }
+        let patch = lateral(patch.with_room());
         Ok(Self::Constant {
             lines: patch.staying(load, longest_patch(config)),
             symmetric: patch.is_symmetric(),
@@ -107,7 +114,7 @@ impl PatchLines {
     pub fn count(&self) -> usize {
         match self {
             Self::Constant { lines, .. } => lines.len(),
-            Self::Sized(patch) => patch.len(),
+            Self::Sized { patch, .. } => patch.len(),
         }
     }
 
@@ -115,7 +122,7 @@ impl PatchLines {
     pub fn is_symmetric(&self) -> bool {
         match self {
             Self::Constant { symmetric, .. } => *symmetric,
-            Self::Sized(patch) => patch.is_symmetric(),
+            Self::Sized { patch, .. } => patch.is_symmetric(),
         }
     }
 
@@ -123,7 +130,7 @@ impl PatchLines {
     pub fn centre(&self) -> f64 {
         match self {
             Self::Constant { centre, .. } => *centre,
-            Self::Sized(patch) => patch.centre(),
+            Self::Sized { patch, .. } => patch.centre(),
         }
     }
 
@@ -131,15 +138,24 @@ impl PatchLines {
     pub fn gaps(&self) -> &[f64] {
         match self {
             Self::Constant { gaps, .. } => gaps,
-            Self::Sized(patch) => patch.gaps(),
+            Self::Sized { patch, .. } => patch.gaps(),
         }
     }
 
-    /// Flexibility of the lines under each other's tangential forces, if they feel them.
-    pub fn flexibility(&self) -> Option<&PatchFlexibility> {
+    /// Flexibility of the lines on given ports under each other's tangential forces, if they feel them.
+    pub fn flexibility(&self, ports: Ports) -> Option<&PatchFlexibility> {
         match self {
             Self::Constant { flexibility, .. } => flexibility.as_deref(),
-            Self::Sized(patch) => Some(patch.flexibility()),
+            Self::Sized { .. } => self.sized(ports).map(|patch| &**patch.flexibility()),
+        }
+    }
+
+    /// Patch on given ports whose size follows from its load.
+    fn sized(&self, ports: Ports) -> Option<&PatchLayout> {
+        let Self::Sized { patch, roomy } = self else { return None };
+        match ports {
+            Ports::Smooth => Some(patch),
+            Ports::Narrow | Ports::Wide => Some(roomy.as_ref().unwrap_or(patch)),
         }
     }
 
@@ -147,7 +163,7 @@ impl PatchLines {
     pub fn load_of(&self, load: f64) -> f64 {
         match self {
             Self::Constant { .. } => 0.0,
-            Self::Sized(patch) => patch.load_of(load),
+            Self::Sized { patch, .. } => patch.load_of(load),
         }
     }
 
@@ -155,26 +171,24 @@ impl PatchLines {
     pub fn load_laid_out(&self, lines: &[Line]) -> f64 {
         match (self, lines) {
             (Self::Constant { .. }, _) | (_, []) => 0.0,
-            (Self::Sized(patch), [first, ..]) => patch.load_of_share(first.layout.share),
+            (Self::Sized { patch, .. }, [first, ..]) => patch.load_of_share(first.layout.share),
         }
     }
 
-    /// Lines under a load \[N], if that matters.
-    pub fn layouts(&self, load: f64) -> Option<Vec<LineLayout>> {
-        match self {
-            Self::Constant { .. } => None,
-            Self::Sized(patch) => Some(patch.moving(load).collect()),
-        }
+    /// Lines on given ports under a load \[N], if that matters.
+    pub fn layouts(&self, load: f64, ports: Ports) -> Option<Vec<LineLayout>> {
+        self.sized(ports).map(|patch| patch.moving(load).collect())
     }
 
-    /// Gives lines the layout of a load \[N].
-    pub fn lay_out(&self, load: f64, lines: &mut [Line]) {
+    /// Gives lines on given ports the layout of a load \[N].
+    pub fn lay_out(&self, load: f64, ports: Ports, lines: &mut [Line]) {
         match self {
             Self::Constant { lines: layouts, .. } => {
                 lines.iter_mut().zip(layouts).for_each(|(line, layout)| line.layout = *layout);
             }
-            Self::Sized(patch) => {
-                lines.iter_mut().zip(patch.moving(load)).for_each(|(line, layout)| line.layout = layout);
+            Self::Sized { .. } => {
+                let layouts = self.layouts(load, ports).unwrap_or_default();
+                lines.iter_mut().zip(layouts).for_each(|(line, layout)| line.layout = layout);
             }
         }
     }
@@ -188,7 +202,7 @@ impl PatchLines {
         };
         match self {
             Self::Constant { lines: layouts, .. } => lines.iter().map(|line| line.layout).eq(layouts.iter().copied()),
-            Self::Sized(_) => lines.len() == self.count() && lines.iter().all(sound),
+            Self::Sized { .. } => lines.len() == self.count() && lines.iter().all(sound),
         }
     }
 }

@@ -113,7 +113,7 @@ impl HalfSpaces {
     /// As [`Self::sideways`], on a grid of a number of `nodes` per half axis along the direction of rolling.
     pub fn sideways_on_nodes(aspect: f64, lines: usize, nodes: u32) -> Self {
         let along = Self::build(aspect, lines, nodes, |grid| Box::new(NodeChoice::new(grid.clone(), None, None)));
-        Self { patch: along.patch.with_room().sideways(), ..along }
+        Self { patch: along.patch.sideways(), ..along }
     }
 
     /// Beside a grid of a number of `nodes` per half axis along the direction of rolling.

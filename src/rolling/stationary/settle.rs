@@ -5,6 +5,7 @@ use super::super::contact_model::ContactStep;
 use super::super::error::StepError;
 use super::super::flattening;
 use super::super::line::Line;
+use super::super::lines;
 use super::super::model::{RollingModel, Workspace};
 use super::super::nodes;
 use super::super::state::{Brake, Clock, HubForces, Motion, Pressing, State};
@@ -96,7 +97,7 @@ fn lines(model: &RollingModel, load: f64, at_rest: bool, thermal: Vec<Option<The
         thermal: temperatures.next().flatten(),
     };
     let mut lines: Vec<_> = (0..model.contact.patch.count()).map(line).collect();
-    model.contact.patch.lay_out(load * model.wheel.width, &mut lines);
+    model.contact.patch.lay_out(load * model.wheel.width, lines::ports(&lines), &mut lines);
     thermal::share_growth(&mut lines);
     lines
 }
