@@ -55,12 +55,15 @@ fn a_wheel_that_locks_yields_as_in_one_direction_and_as_its_mirror_image() {
     assert!([&straight, &right].iter().all(|it| it.energy_residual.abs() < 1e-3));
 }
 
-/// Load, moment, friction and lateral motion change in every step while wear and yielding change the surfaces.
+/// Load, moment, friction and lateral motion change in every step while wear and yielding change the surfaces, and bodies are damped or heated by
+/// compression.
 #[test]
 fn energy_is_kept_while_everything_varies_on_worn_flattened_and_even_surfaces() {
     type Change = fn(&mut Config);
-    let cases: [(&str, Change); 3] = [
+    let cases: [(&str, Change); 5] = [
         ("even", |_| {}),
+        ("damped", |config| config.damping.rayleigh_stiffness = 1e-7),
+        ("reversibly heated", |config| config.physics.thermoelastic_heating = true),
         ("worn", |config| config.damage.wear = Wear::TGamma),
         ("flattened", |config| config.wheel.profile = "flat(length=0.02)".to_owned()),
     ];

@@ -8,7 +8,6 @@ use std::f64::consts::PI;
 /// Refuses parameters with which a contact of two directions is not computed.
 pub fn check(config: &Config) -> Result<(), ConfigError> {
     let (contact, solver) = (&config.contact, &config.solver);
-    let reversible = config.thermal.enabled && config.physics.thermoelastic_heating;
     let others = [
         (
             contact.shape.is_line(),
@@ -16,12 +15,6 @@ pub fn check(config: &Config) -> Result<(), ConfigError> {
             "contact.shape = ellipse or rows",
         ),
         (!solver.response.is_reduced(), "solver.response = full", "solver.response = reduced"),
-        (
-            config.damping.rayleigh_stiffness > 0.0,
-            "damping.rayleigh_stiffness above 0",
-            "damping.rayleigh_stiffness = 0",
-        ),
-        (reversible, "physics.thermoelastic_heating = true", "physics.thermoelastic_heating = false"),
     ];
     let refused = others.into_iter().find(|(found, ..)| config.contact.lateral && *found);
     refused.map_or(Ok(()), |(_, other, remedy)| Err(ConfigError::Lateral { other, remedy }))
