@@ -1,39 +1,47 @@
 //! Values that are expensive to compute, kept for the steps that share them.
 
-/// Number of values that are kept: eight wheels that drive in turn may need two each.
-const KEPT: usize = 16;
-
 /// Values that were used last, by what they belong to (least recently used: the oldest one makes room); the present one
-/// comes first.
+/// comes first. Sixteen are kept unless a use says otherwise: eight wheels that drive in turn may need two each.
 #[derive(Clone, Debug)]
-pub struct Lru<K, V> {
-    kept: Vec<(Option<K>, V)>,
+pub struct Lru<K, V, const KEPT: usize = 16> {
+    kept: Vec<(K, V)>,
 }
 
-impl<K, V> Default for Lru<K, V> {
+impl<K, V, const KEPT: usize> Default for Lru<K, V, KEPT> {
     fn default() -> Self {
         Self { kept: Vec::new() }
     }
 }
 
-impl<K: PartialEq, V: Default> Lru<K, V> {
+impl<K, V, const KEPT: usize> Lru<K, V, KEPT> {
     /// Makes the value of `key` the present one; `fill` computes it in the place of the oldest one unless it is kept.
-    pub fn select<E>(&mut self, key: K, fill: impl FnOnce(&mut V) -> Result<(), E>) -> Result<(), E> {
-        let known = self.kept.iter().position(|(of, _)| of.as_ref() == Some(&key));
-        let place = known.unwrap_or_else(|| {
-            if self.kept.len() < KEPT {
-                self.kept.push((None, V::default()));
-            }
-            self.kept.len() - 1
-        });
-        self.kept[..=place].rotate_right(1);
-        if known.is_none() {
-            let (of, value) = &mut self.kept[0];
-            *of = None;
-            fill(value)?;
-            *of = Some(key);
+    pub fn select<E>(&mut self, key: K, fill: impl FnOnce(&mut V) -> Result<(), E>) -> Result<(), E>
+    where
+        K: PartialEq,
+        V: Default,
+    {
+        if !self.find(|of| *of == key) {
+            let oldest = if self.kept.len() < KEPT { None } else { self.kept.pop() };
+            let mut value = oldest.map_or_else(V::default, |(_, value)| value);
+            fill(&mut value)?;
+            self.keep(key, value);
         }
         Ok(())
+    }
+
+    /// Makes the value of a key that passes a test the present one; whether there is one.
+    pub fn find(&mut self, passes: impl Fn(&K) -> bool) -> bool {
+        let place = self.kept.iter().position(|(of, _)| passes(of));
+        if let Some(place) = place {
+            self.kept[..=place].rotate_right(1);
+        }
+        place.is_some()
+    }
+
+    /// Makes a new value the present one.
+    pub fn keep(&mut self, key: K, value: V) {
+        self.kept.truncate(KEPT - 1);
+        self.kept.insert(0, (key, value));
     }
 
     /// Present value.

@@ -4,6 +4,7 @@
 mod common;
 
 use common::{model, prescribed, preset};
+use wheelrail::config::{Config, ContactMethod};
 use wheelrail::simulation::{Inputs, Outputs, Simulation};
 
 const PATCHES: [&str; 3] = ["railway_ellipse", "railway_s1002_0mm", "railway_s1002_3mm"];
@@ -37,37 +38,58 @@ fn patches_grow_with_the_third_root_from_a_hundredth_to_three_times_the_nominal_
     }
 }
 
-/// One step from the same state under loads 2.5 N apart: nothing jumps, and as slope of the pressure comes out a third of
-/// pressure over load where the wheel is carried by the load alone.
+/// Median and largest change of pressure, sizes, force and approach in one step from the same state under loads 2.5 N apart.
+fn changes_with_the_load(mut config: Config, nominal: f64) -> [[f64; 2]; 5] {
+    (config.tuning.tolerance, config.tuning.max_step) = (0.0, 1e-3);
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    (inputs.drive.load, inputs.drive.moment) = (nominal, -0.03 * nominal);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+    (0..20).for_each(|_| simulation.advance(&inputs, 1e-3).unwrap());
+    let before = simulation.checkpoint().clone();
+    let mut under = |load: f64| {
+        let mut inputs = inputs;
+        inputs.drive.load = load;
+        simulation.recall(before.clone()).unwrap();
+        simulation.advance(&inputs, 1e-3).unwrap();
+        let o: &Outputs = simulation.outputs();
+        [o.contact_pressure_max, o.contact_half_width, o.contact_force_x, o.contact_approach, o.contact_width]
+    };
+    let seen: Vec<_> = (0..400).map(|k| under(nominal + 2.5 * (f64::from(k) - 200.0))).collect();
+    std::array::from_fn(|k| {
+        let mut changes: Vec<f64> = seen.windows(2).map(|pair| (pair[1][k] - pair[0][k]).abs()).collect();
+        changes.sort_by(f64::total_cmp);
+        [changes[200], changes[398]]
+    })
+}
+
+/// Nothing jumps, and as slope of the pressure comes out a third of pressure over load where the wheel is carried by the
+/// load alone.
 #[test]
 fn pressure_size_and_forces_change_smoothly_with_the_load() {
     for name in PATCHES {
         for (nominal, hot) in [(1e5, true), (1e5, false), (3e4, false)] {
             let mut config = preset(name, 10);
             config.thermal.enabled = hot;
-            (config.tuning.tolerance, config.tuning.max_step) = (0.0, 1e-3);
-            let model = model(config);
-            let mut inputs = Inputs::rolling(model.config());
-            (inputs.drive.load, inputs.drive.moment) = (nominal, -0.03 * nominal);
-            let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
-            (0..20).for_each(|_| simulation.advance(&inputs, 1e-3).unwrap());
-            let before = simulation.checkpoint().clone();
-            let mut under = |load: f64| {
-                let mut inputs = inputs;
-                inputs.drive.load = load;
-                simulation.recall(before.clone()).unwrap();
-                simulation.advance(&inputs, 1e-3).unwrap();
-                let o: &Outputs = simulation.outputs();
-                [o.contact_pressure_max, o.contact_half_width, o.contact_force_x, o.contact_approach, o.contact_width]
-            };
-            let seen: Vec<_> = (0..400).map(|k| under(nominal + 2.5 * (f64::from(k) - 200.0))).collect();
-            for k in 0..5 {
-                let mut changes: Vec<f64> = seen.windows(2).map(|pair| (pair[1][k] - pair[0][k]).abs()).collect();
-                changes.sort_by(f64::total_cmp);
-                let (median, largest) = (changes[200], changes[398]);
+            for (k, [median, largest]) in changes_with_the_load(config, nominal).into_iter().enumerate() {
                 println!("{name}, {nominal} N, hot {hot}, {k}: largest change {:.3} medians", largest / median);
                 assert!(median > 0.0 && largest < 2.0 * median, "{largest:e} {median:e}");
             }
+        }
+    }
+}
+
+/// On fixed nodes, too, where edges move from node to node; the width follows in stretches. Measured: 2.4 medians on a smooth
+/// rail, 1.01 on a rough one; the third patch is left out there, whose force jumps once, by 12 medians or 0.2 N.
+#[test]
+fn pressure_size_and_forces_on_fixed_nodes_change_by_five_medians_at_most() {
+    let rough = |name| (name, "roughness(spectrum = EN_ISO_3095)");
+    for (name, profile) in PATCHES.map(|name| (name, "")).into_iter().chain([rough(PATCHES[0]), rough(PATCHES[1])]) {
+        let mut config = preset(name, 10);
+        (config.solver.contact, config.rail.profile) = (ContactMethod::Grid, profile.into());
+        for (k, [median, largest]) in changes_with_the_load(config, 1e5).into_iter().take(4).enumerate() {
+            println!("{name}, {profile:?}, {k}: largest change {:.3} medians", largest / median);
+            assert!(largest <= 5.0 * median, "{largest:e} {median:e}");
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Fixed points of nonlinear maps, found faster than by iteration alone.
 
+use super::vectorised::dot;
 use nalgebra::{SMatrix, SVector};
 
 /// Steps that are remembered.
@@ -43,7 +44,7 @@ impl Anderson {
             df.clear();
             df.extend(x.iter().zip(image).zip(&self.change).map(|((x, g), before)| g - x - before));
             for k in 0..self.count.min(MEMORY) {
-                let product = product(&self.changes[slot], &self.changes[k]);
+                let product = dot(&self.changes[slot], &self.changes[k]);
                 (self.products[(slot, k)], self.products[(k, slot)]) = (product, product);
             }
         }
@@ -70,7 +71,7 @@ impl Anderson {
             for j in 0..kept {
                 matrix[(i, j)] = self.products[(i, j)];
             }
-            rhs[i] = product(&self.changes[i], &self.change);
+            rhs[i] = dot(&self.changes[i], &self.change);
         }
         let shift = REGULARISATION * matrix.trace();
         for i in 0..MEMORY {
@@ -79,16 +80,6 @@ impl Anderson {
         }
         matrix.cholesky().map_or([0.0; MEMORY], |factors| factors.solve(&rhs).into())
     }
-}
-
-/// Scalar product with sums in four lanes, the same on every machine.
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
-    let mut sums = [0.0; 4];
-    for (a, b) in a.iter().zip(b) {
-        (0..4).for_each(|l| sums[l] += a[l] * b[l]);
-    }
-    sums.iter().sum::<f64>() + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
 }
 
 #[cfg(test)]

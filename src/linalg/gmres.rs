@@ -1,5 +1,7 @@
 //! GMRES: iterative solution of a linear system with a good approximate inverse.
 
+use super::vectorised::dot;
+
 /// A linear system and an approximate inverse of its matrix.
 pub trait LinearSystem {
     /// `out ← A x`.
@@ -100,7 +102,7 @@ impl Gmres {
             // Orthogonalised twice, which is enough.
             for _ in 0..2 {
                 for (h, v) in column.iter_mut().zip(&*basis) {
-                    let part = product(v, next);
+                    let part = dot(v, next);
                     *h += part;
                     add(-part, v, next);
                 }
@@ -160,11 +162,7 @@ fn spare(vectors: &mut Vec<Vec<f64>>, index: usize, n: usize) {
 }
 
 fn norm(x: &[f64]) -> f64 {
-    product(x, x).sqrt()
-}
-
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    dot(x, x).sqrt()
 }
 
 fn add(factor: f64, x: &[f64], y: &mut [f64]) {

@@ -2,10 +2,10 @@
 
 use super::MechanicsError;
 use super::damping::{BodyDamping, DampedModes};
-use super::motion::{self, Equations};
+use super::motion::{BodyResponse, Equations, centrifugal_work};
 use super::reduction::scale_columns;
 use super::remainder::missing;
-use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
+use super::response::{BodyState, StepOperator, fit};
 use super::retarded::{RetardedLayer, quadratic_form};
 use super::solver::{Dense, StepSolver};
 use super::system::BodySystem;
@@ -13,7 +13,6 @@ use crate::analytic::HalfPlane;
 use crate::axes::PerAxis;
 use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CholeskyPattern, CsrMatrix, LinalgError};
-use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 use std::sync::Arc;
@@ -264,30 +263,6 @@ impl BodyResponse for FullBody {
         Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, layer, solver })
     }
 
-    fn free_response(
-        &self,
-        op: &StepOperator,
-        state: &BodyState,
-        td: &TimeDerivative,
-        stream: Convection,
-        out: &mut FreeResponse,
-    ) {
-        motion::free_response(self, op, state, td, stream, out);
-    }
-
-    fn commit(
-        &self,
-        op: &StepOperator,
-        free: &FreeResponse,
-        forces: &DVector<f64>,
-        rigid: PerAxis<f64>,
-        td: &TimeDerivative,
-        state: &BodyState,
-        next: &mut BodyState,
-    ) {
-        motion::commit(self, op, free, forces, rigid, td, state, next);
-    }
-
     fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: PerAxis<f64>) -> f64 {
         let system = &self.system;
         let (y, v) = (state.displacement.as_slice(), state.velocity.as_slice());
@@ -299,7 +274,7 @@ impl BodyResponse for FullBody {
             Some(layer) => layer.energy(&state.retarded),
             None => 0.5 * quadratic_form(&self.near, forces),
         };
-        elastic + kinetic + coupling + layer - motion::centrifugal_work(self, state, rigid_velocity.rotation)
+        elastic + kinetic + coupling + layer - centrifugal_work(self, state, rigid_velocity.rotation)
     }
 
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {
@@ -314,10 +289,6 @@ impl BodyResponse for FullBody {
         let ([mass, stiffness], v) = (damping.rayleigh, velocity.as_slice());
         let rayleigh = mass * velocity.dot(&momentum) + stiffness * system.stiffness.bilinear(v, v);
         dashpots + modes + rayleigh + self.layer().map_or(0.0, |layer| layer.dissipation(&state.retarded))
-    }
-
-    fn retarded_len(&self) -> usize {
-        self.layer().map_or(0, |layer| layer.flexibility.nrows())
     }
 }
 

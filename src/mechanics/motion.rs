@@ -4,6 +4,7 @@
 //! momentum balance of [`super::response`] becomes `(a0² M + a0 D + K) y = Sᵀλ − M r_k ẇ_k + load`, where
 //! `load = −M h − D (h_v + Ω L y_n) − 2Ω C ẏ_n − Ω̇ C y_n + Ω² S y_n + Ω² M X` is known before the contact is solved.
 
+use super::MechanicsError;
 use super::response::{BodyState, Convection, FreeResponse, StepOperator, fit};
 use super::retarded::RetardedLayer;
 use crate::axes::PerAxis;
@@ -12,7 +13,7 @@ use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 
 /// The equations of motion of a body in its own coordinates, per metre of width.
-pub(super) trait Equations {
+pub trait Equations {
     /// `load ← −M a`.
     fn set_inertia(&self, acceleration: &DVector<f64>, load: &mut DVector<f64>);
 
@@ -46,53 +47,110 @@ pub(super) trait Equations {
     fn add_surface_forces(&self, forces: &DVector<f64>, load: &mut DVector<f64>);
 }
 
+/// A deformable body behind the contact; all quantities per metre of width.
+pub trait BodyResponse: Equations + Send + Sync {
+    /// Number of coordinates in a [`BodyState`] of this body.
+    fn state_len(&self) -> usize;
+
+    /// Answer to unit port loads when `ÿ = a0² y + …` (0: static).
+    fn operator(&self, a0: f64) -> Result<StepOperator, MechanicsError>;
+
+    /// The part of the answer known before the contact is solved; overwrites `out` and reuses its memory.
+    ///
+    /// Holds the history of `state`, the centrifugal load (if enabled) and the convective terms of the `stream`,
+    /// evaluated with the displacement and velocity of `state`. `op` must come from this body with `a0 = td.a0`.
+    fn free_response(
+        &self,
+        op: &StepOperator,
+        state: &BodyState,
+        td: &TimeDerivative,
+        stream: Convection,
+        out: &mut FreeResponse,
+    ) {
+        let FreeResponse { surface, momentum, load, acceleration, velocity, product, retarded } = out;
+        state.acceleration_offsets(td, acceleration);
+        fit(load, acceleration.len());
+        fit(product, acceleration.len());
+        self.set_inertia(acceleration, load);
+        if self.is_damped() {
+            state.velocity_offsets(td, velocity);
+            self.subtract_damping(stream.speed, state, velocity, load);
+        }
+        let square = stream.speed * stream.speed;
+        if stream.speed != 0.0 || stream.acceleration != 0.0 {
+            let twice = 2.0 * stream.speed;
+            let moving = state.velocity.as_slice().iter().zip(state.displacement.as_slice());
+            for (rate, (v, y)) in product.as_mut_slice().iter_mut().zip(moving) {
+                *rate = v * twice + stream.acceleration * y;
+            }
+            self.subtract_gyroscopic(product, load);
+            self.add_ale_inertia(square, &state.displacement, load);
+            if let Some(centrifugal) = self.centrifugal() {
+                add_column(square, centrifugal.as_slice(), load);
+            }
+        }
+        product.copy_from(load);
+        op.solver.solve_in_place(product);
+        self.set_surface(product, square, surface);
+        if let Some(layer) = self.layer() {
+            layer.add_known(&state.retarded, td, retarded, surface);
+        }
+        let a0_squared = op.a0 * op.a0;
+        for (value, known) in product.as_mut_slice().iter_mut().zip(acceleration.as_slice()) {
+            *value = *value * a0_squared + known;
+        }
+        *momentum = PerAxis::from_fn(|axis| dot(column(self.rigid(), axis.number()), product.as_slice()));
+    }
+
+    /// Accepts a step: solves for the new coordinates and writes the state after it into `next`, whose memory is
+    /// reused.
+    ///
+    /// `forces` are the nodal forces on this body (`2n`) [N/m], `rigid` the accelerations `V̇`, `Ü` [m/s²] and `Ω̇`
+    /// [rad/s²] of the hub, or those of the base (x, y; the third is ignored); `op`, `free`, `td` and `state` are those
+    /// of [`Self::free_response`].
+    #[allow(clippy::too_many_arguments)]
+    fn commit(
+        &self,
+        op: &StepOperator,
+        free: &FreeResponse,
+        forces: &DVector<f64>,
+        rigid: PerAxis<f64>,
+        td: &TimeDerivative,
+        state: &BodyState,
+        next: &mut BodyState,
+    ) {
+        let new = &mut next.displacement;
+        fit(new, free.load.len());
+        new.copy_from(&free.load);
+        self.add_surface_forces(forces, new);
+        for (axis, acceleration) in rigid.iter() {
+            add_column(-acceleration, column(self.rigid(), axis.number()), new);
+        }
+        op.solver.solve_in_place(new);
+        state.advance(td, next);
+        if let Some(layer) = self.layer() {
+            layer.commit(&free.retarded, forces, td, &state.retarded, &mut next.retarded);
+        }
+    }
+
+    /// Elastic energy + kinetic energy `½ vᵀMv` of the deformation + its coupling `Σ_k w_k r_kᵀ M v` with the rigid
+    /// velocities `w = (V, U̇, Ω)`, less the work `Ω² XᵀM y` of the centrifugal load [J/m]; `forces` feed the static
+    /// part of a reduced body.
+    fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: PerAxis<f64>) -> f64;
+
+    /// Power that damping dissipates and the ends radiate while the material streams with `speed` [W/m]; zero without
+    /// damping.
+    fn dissipation(&self, state: &BodyState, speed: f64) -> f64;
+
+    /// Number of elastic nodal forces in [`BodyState::retarded`]; 0 without stiffness-proportional damping.
+    fn retarded_len(&self) -> usize {
+        self.layer().map_or(0, |layer| layer.flexibility.nrows())
+    }
+}
+
 /// Work `Ω² XᵀM y` of the centrifugal load on the deformation, at the angular velocity `omega` [rad/s], in J/m.
 pub(super) fn centrifugal_work(body: &impl Equations, state: &BodyState, omega: f64) -> f64 {
     body.centrifugal().map_or(0.0, |load| omega * omega * load.dot(&state.displacement))
-}
-
-/// See [`super::BodyResponse::free_response`].
-pub(super) fn free_response(
-    body: &impl Equations,
-    op: &StepOperator,
-    state: &BodyState,
-    td: &TimeDerivative,
-    stream: Convection,
-    out: &mut FreeResponse,
-) {
-    let FreeResponse { surface, momentum, load, acceleration, velocity, product, retarded } = out;
-    state.acceleration_offsets(td, acceleration);
-    fit(load, acceleration.len());
-    fit(product, acceleration.len());
-    body.set_inertia(acceleration, load);
-    if body.is_damped() {
-        state.velocity_offsets(td, velocity);
-        body.subtract_damping(stream.speed, state, velocity, load);
-    }
-    let square = stream.speed * stream.speed;
-    if stream.speed != 0.0 || stream.acceleration != 0.0 {
-        let twice = 2.0 * stream.speed;
-        let moving = state.velocity.as_slice().iter().zip(state.displacement.as_slice());
-        for (rate, (v, y)) in product.as_mut_slice().iter_mut().zip(moving) {
-            *rate = v * twice + stream.acceleration * y;
-        }
-        body.subtract_gyroscopic(product, load);
-        body.add_ale_inertia(square, &state.displacement, load);
-        if let Some(centrifugal) = body.centrifugal() {
-            add_column(square, centrifugal.as_slice(), load);
-        }
-    }
-    product.copy_from(load);
-    op.solver.solve_in_place(product);
-    body.set_surface(product, square, surface);
-    if let Some(layer) = body.layer() {
-        layer.add_known(&state.retarded, td, retarded, surface);
-    }
-    let a0_squared = op.a0 * op.a0;
-    for (value, known) in product.as_mut_slice().iter_mut().zip(acceleration.as_slice()) {
-        *value = *value * a0_squared + known;
-    }
-    *momentum = PerAxis::from_fn(|axis| dot(column(body.rigid(), axis.number()), product.as_slice()));
 }
 
 /// `out ← out + factor · x`.
@@ -105,39 +163,13 @@ pub(super) fn column(a: &DMatrix<f64>, j: usize) -> &[f64] {
     &a.as_slice()[j * a.nrows()..(j + 1) * a.nrows()]
 }
 
-/// See [`super::BodyResponse::commit`].
-#[allow(clippy::too_many_arguments)]
-pub(super) fn commit(
-    body: &impl Equations,
-    op: &StepOperator,
-    free: &FreeResponse,
-    forces: &DVector<f64>,
-    rigid: PerAxis<f64>,
-    td: &TimeDerivative,
-    state: &BodyState,
-    next: &mut BodyState,
-) {
-    let new = &mut next.displacement;
-    fit(new, free.load.len());
-    new.copy_from(&free.load);
-    body.add_surface_forces(forces, new);
-    for (axis, acceleration) in rigid.iter() {
-        add_column(-acceleration, column(body.rigid(), axis.number()), new);
-    }
-    op.solver.solve_in_place(new);
-    state.advance(td, next);
-    if let Some(layer) = body.layer() {
-        layer.commit(&free.retarded, forces, td, &state.retarded, &mut next.retarded);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::config::RailEnds;
     use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
     use crate::mechanics::testing::{committed, free, paper_d};
-    use crate::mechanics::{BodyDamping, BodyResponse, BodySystem, FullBody, ReducedBasis, ReducedBody};
+    use crate::mechanics::{BodyDamping, BodySystem, FullBody, ReducedBasis, ReducedBody};
     use crate::mechanics::{rail_system, wheel_system};
 
     /// Trapezoidal rule.

@@ -15,14 +15,13 @@ use super::MechanicsError;
 use super::damping::BodyDamping;
 use super::kinds::ModeKinds;
 use super::mirrored::{MirroredModes, symmetric_product};
-use super::motion::{self, Equations, column};
+use super::motion::{BodyResponse, Equations, centrifugal_work, column};
 use super::reduction::{ReducedBasis, scale_columns};
-use super::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator, fit};
+use super::response::{BodyState, StepOperator, fit};
 use super::retarded::{RetardedLayer, add_product, add_products, quadratic_form};
 use super::solver::{Dense, Diagonal, StepSolver};
 use crate::axes::{Axis, PerAxis};
 use crate::linalg::vectorised::{self, dot};
-use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
@@ -223,30 +222,6 @@ impl BodyResponse for ReducedBody {
         Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, layer, solver })
     }
 
-    fn free_response(
-        &self,
-        op: &StepOperator,
-        state: &BodyState,
-        td: &TimeDerivative,
-        stream: Convection,
-        out: &mut FreeResponse,
-    ) {
-        motion::free_response(self, op, state, td, stream, out);
-    }
-
-    fn commit(
-        &self,
-        op: &StepOperator,
-        free: &FreeResponse,
-        forces: &DVector<f64>,
-        rigid: PerAxis<f64>,
-        td: &TimeDerivative,
-        state: &BodyState,
-        next: &mut BodyState,
-    ) {
-        motion::commit(self, op, free, forces, rigid, td, state, next);
-    }
-
     fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: PerAxis<f64>) -> f64 {
         let basis = &self.basis;
         let (y, v) = (state.displacement.as_slice(), state.velocity.as_slice());
@@ -258,7 +233,7 @@ impl BodyResponse for ReducedBody {
         let kinetic = dot(v, v);
         let coupling: f64 =
             rigid_velocity.iter().map(|(axis, w)| w * dot(column(&basis.rigid, axis.number()), v)).sum();
-        0.5 * (modal + residual + kinetic) + coupling - motion::centrifugal_work(self, state, rigid_velocity.rotation)
+        0.5 * (modal + residual + kinetic) + coupling - centrifugal_work(self, state, rigid_velocity.rotation)
     }
 
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {
@@ -268,10 +243,6 @@ impl BodyResponse for ReducedBody {
             self.modal.as_ref().map_or(0.0, |modal| modal.dissipation(state, speed, self.kinds, self.carried(state)));
         dashpots + modes + self.layer.as_ref().map_or(0.0, |layer| layer.dissipation(&state.retarded))
     }
-
-    fn retarded_len(&self) -> usize {
-        self.layer.as_ref().map_or(0, |layer| layer.flexibility.nrows())
-    }
 }
 
 #[cfg(test)]
@@ -279,7 +250,8 @@ mod tests {
     use super::*;
 
     use crate::mechanics::testing::{committed, free, paper_d};
-    use crate::mechanics::{FullBody, rail_system, wheel_system};
+    use crate::mechanics::{Convection, FullBody, rail_system, wheel_system};
+    use crate::multistep::TimeDerivative;
 
     /// Wheel and rail, each reduced to `modes` and full.
     fn pairs(modes: usize) -> [(ReducedBody, FullBody); 2] {

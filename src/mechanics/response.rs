@@ -16,7 +16,6 @@
 //! in/outflow (Robin) term of Paper B, eq. 12. The convective terms are small, so they are evaluated on the state
 //! before the step.
 
-use super::MechanicsError;
 pub(super) use super::retarded::fit;
 use super::retarded::{RetardedForces, RetardedLayer};
 use super::solver::StepSolver;
@@ -25,60 +24,6 @@ use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-/// A deformable body behind the contact; all quantities per metre of width.
-pub trait BodyResponse: Send + Sync {
-    /// Number of coordinates in a [`BodyState`] of this body.
-    fn state_len(&self) -> usize;
-
-    /// Answer to unit port loads when `ÿ = a0² y + …` (0: static).
-    fn operator(&self, a0: f64) -> Result<StepOperator, MechanicsError>;
-
-    /// The part of the answer known before the contact is solved; overwrites `out` and reuses its memory.
-    ///
-    /// Holds the history of `state`, the centrifugal load (if enabled) and the convective terms of the `stream`,
-    /// evaluated with the displacement and velocity of `state`. `op` must come from this body with `a0 = td.a0`.
-    fn free_response(
-        &self,
-        op: &StepOperator,
-        state: &BodyState,
-        td: &TimeDerivative,
-        stream: Convection,
-        out: &mut FreeResponse,
-    );
-
-    /// Accepts a step: solves for the new coordinates and writes the state after it into `next`, whose memory is
-    /// reused.
-    ///
-    /// `forces` are the nodal forces on this body (`2n`) [N/m], `rigid` the accelerations `V̇`, `Ü` [m/s²] and `Ω̇`
-    /// [rad/s²] of the hub, or those of the base (x, y; the third is ignored); `op`, `free`, `td` and `state` are those
-    /// of [`Self::free_response`].
-    #[allow(clippy::too_many_arguments)]
-    fn commit(
-        &self,
-        op: &StepOperator,
-        free: &FreeResponse,
-        forces: &DVector<f64>,
-        rigid: PerAxis<f64>,
-        td: &TimeDerivative,
-        state: &BodyState,
-        next: &mut BodyState,
-    );
-
-    /// Elastic energy + kinetic energy `½ vᵀMv` of the deformation + its coupling `Σ_k w_k r_kᵀ M v` with the rigid
-    /// velocities `w = (V, U̇, Ω)`, less the work `Ω² XᵀM y` of the centrifugal load [J/m]; `forces` feed the static
-    /// part of a reduced body.
-    fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: PerAxis<f64>) -> f64;
-
-    /// Power that damping dissipates and the ends radiate while the material streams with `speed` [W/m]; zero without
-    /// damping.
-    fn dissipation(&self, state: &BodyState, speed: f64) -> f64;
-
-    /// Number of elastic nodal forces in [`BodyState::retarded`]; 0 without stiffness-proportional damping.
-    fn retarded_len(&self) -> usize {
-        0
-    }
-}
 
 /// Speed and acceleration of the material stream: `(Ω, Ω̇)` for the wheel, `(V, V̇)` for the rail.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -194,7 +139,7 @@ pub struct FreeResponse {
     pub surface: DVector<f64>,
     /// Rate of deformation momentum (x, y, Ω) without contact forces and rigid accelerations.
     pub momentum: PerAxis<f64>,
-    /// Right-hand side in the body's own coordinates, for [`BodyResponse::commit`].
+    /// Right-hand side in the body's own coordinates, for [`super::BodyResponse::commit`].
     pub load: DVector<f64>,
     /// Scratch: what is known of acceleration and velocity, and a vector for products.
     pub(super) acceleration: DVector<f64>,

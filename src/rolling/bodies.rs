@@ -7,14 +7,12 @@ use super::support::{CondensedBase, TrackSupport};
 use crate::axes::PerAxis;
 use crate::contact::line::kernel::{line_compliance, line_energy, logarithms};
 use crate::contact::{Influence, LineKernel, Ports};
-use crate::mechanics::response::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
-use crate::mechanics::{MechanicsError, Pair};
+use crate::lru::Lru;
+use crate::mechanics::response::{BodyState, Convection, FreeResponse, StepOperator};
+use crate::mechanics::{BodyResponse, MechanicsError, Pair};
 use crate::multistep::TimeDerivative;
 use nalgebra::DMatrix;
 use std::sync::Arc;
-
-/// Number of step sizes whose operators are kept: those of steps that are halved and joined again.
-const KEPT: usize = 12;
 
 /// Wheel and rail, and what carries the rail.
 ///
@@ -80,11 +78,9 @@ fn influence(([wheel, rail], relative): &Compliances) -> Influence<'_> {
     Influence { compliance: [wheel, rail], relative }
 }
 
-/// Operators of recently used step sizes; never part of a state.
-#[derive(Default)]
-pub struct OperatorCache {
-    recent: Vec<Arc<Operators>>,
-}
+/// Operators of a dozen step sizes, those of steps that are halved and joined again, by their `a0` and ports; never part
+/// of a state.
+pub type KeptOperators = Lru<(f64, Ports), Arc<Operators>, 12>;
 
 impl Bodies {
     /// Wheel and rail, the rail on its `support`.
@@ -166,20 +162,15 @@ impl Bodies {
         state.sum(of_line) - counted
     }
 
-    /// Operators for `a0` on the ports of `state`, from the cache if they are there.
+    /// Operators for `a0` on the ports of `state`, which are kept.
     pub fn operators(
         &self,
         a0: f64,
         state: &State,
-        cache: &mut OperatorCache,
+        kept: &mut KeptOperators,
     ) -> Result<Arc<Operators>, MechanicsError> {
-        let (recent, ports) = (&mut cache.recent, lines::ports(&state.lines));
-        if let Some(at) = recent.iter().position(|o| o.a0 == a0 && o.ports == ports) {
-            recent[at..].rotate_left(1);
-        } else {
-            if recent.len() >= KEPT {
-                recent.remove(0);
-            }
+        let ports = lines::ports(&state.lines);
+        if !kept.find(|of| *of == (a0, ports)) {
             let [wheel, rail] = self.of(state);
             let (wheel, mut rail) = (wheel.operator(a0)?, rail.operator(a0)?);
             let base = self.support.as_ref().map(|support| support.condense(&mut rail));
@@ -189,9 +180,10 @@ impl Bodies {
             let lift = self.apart.as_ref().map_or(0.0, |(LineKernel { tangential, normal, .. }, _)| {
                 normal.factor * normal.reach - tangential.factor * tangential.reach
             });
-            recent.push(Arc::new(Operators { a0, ports, wheel, rail, base, relative, shared, lift, logarithms }));
+            let operators = Operators { a0, ports, wheel, rail, base, relative, shared, lift, logarithms };
+            kept.keep((a0, ports), Arc::new(operators));
         }
-        Ok(recent[recent.len() - 1].clone())
+        Ok(kept.present().clone())
     }
 
     /// Answers of wheel and rail known before the contact is solved; `streams` are those of wheel and rail.

@@ -1,6 +1,6 @@
 //! The model of one parameter set: small owners side by side, immutable during a run.
 
-use super::bodies::{Bodies, OperatorCache};
+use super::bodies::{Bodies, KeptOperators};
 use super::contact_model::ContactModel;
 use super::error::ModelError;
 use super::line::Line;
@@ -54,7 +54,7 @@ const SHARES_ROUND_OFF: f64 = 1e-12;
 #[derive(Default)]
 pub struct Workspace {
     /// Operators of recent step sizes.
-    pub operators: OperatorCache,
+    pub operators: KeptOperators,
     /// Answers of wheel and rail without contact forces.
     pub free: [FreeResponse; 2],
     /// Of the contact solver.

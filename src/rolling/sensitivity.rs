@@ -3,9 +3,10 @@
 //! The state at a communication point is a function of the inputs of the step that led to it (at the start: of the
 //! inputs of the stationary state). That function is differentiated as it is computed, through all its internal steps,
 //! contact, heat and histories, by central differences *within its branch*: both perturbed steps must end with the
-//! contact states of the present one and have taken as many contact iterations and internal steps, otherwise the
-//! perturbation is reduced. Between changes of state the function is analytic, and the difference quotient has about
-//! seven correct digits; at a kink and at the end of a range it falls back to the derivative of one side.
+//! contact states of the present one, with the edges of its patches in the same elements of the temperature fields, and
+//! have taken as many contact iterations and internal steps, otherwise the perturbation is reduced. Between changes of
+//! state the function is analytic, and the difference quotient has about seven correct digits; at a kink and at the end
+//! of a range it falls back to the derivative of one side.
 
 use super::control::{Drive, Inputs};
 use super::direction::Direction;
@@ -17,6 +18,7 @@ use super::outputs::observe_all;
 use super::state::State;
 use super::{stationary, substeps};
 use crate::config::Tuning;
+use crate::contact::ContactState;
 use serde::{Deserialize, Serialize};
 
 /// Origin of a state.
@@ -152,7 +154,11 @@ fn repeat(
 
 /// True if two states were computed by the same sequence of decisions.
 fn same_branch(model: &RollingModel, a: &State, b: &State) -> bool {
-    let same = |(a, b): (&Line, &Line)| model.contact.solver.same_branch(&a.contact, &b.contact);
+    let thermal =
+        |a: &ContactState, b: &ContactState| model.thermal.as_ref().is_none_or(|heat| heat.conducts_alike(a, b));
+    let same = |(Line { contact: a, .. }, Line { contact: b, .. }): (&Line, &Line)| {
+        model.contact.solver.same_branch(a, b) && thermal(a, b)
+    };
     a.lines.iter().zip(&b.lines).all(same)
         && a.hub.brake.locked == b.hub.brake.locked
         && a.clock.restarted == b.clock.restarted

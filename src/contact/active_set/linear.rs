@@ -67,12 +67,6 @@ impl LinearProblem<'_> {
         balance
     }
 
-    /// Constant of an equation with the motions that are not unknown, which are those of a line.
-    pub fn constant(&self, equation: &Equation, line: &ContactLine) -> f64 {
-        let given = Axis::ALL.into_iter().filter(|axis| !self.unknowns.axes.contains(axis));
-        equation.constant + given.map(|axis| equation.motions[axis] * line.traction.rigid[axis]).sum::<f64>()
-    }
-
     /// Constant of an equation with all motions as they are.
     pub fn left_over(equation: &Equation, line: &ContactLine) -> f64 {
         equation.constant + equation.motions.dot(line.traction.rigid)
@@ -90,7 +84,7 @@ impl LinearProblem<'_> {
         for (value, &axis) in rest.iter_mut().zip(&self.unknowns.axes) {
             *value = equation.motions[axis];
         }
-        *row.1 = -self.constant(equation, line) * scale(row.0);
+        *row.1 = -Self::left_over(equation, line) * scale(row.0);
     }
 }
 

@@ -1,5 +1,7 @@
 //! Unknowns of the linear problem, in their order: of every line normal forces of the closed nodes and tangential
-//! forces of the stuck ones, then motions that are sought.
+//! forces of the stuck ones, then changes of the motions that are sought. Motions themselves would ask for forces
+//! thousands of times as large in the elimination, since velocities of hub and rim hardly differ, and rounding with
+//! them.
 
 use super::axes::Axes;
 use crate::axes::Axis;
@@ -61,7 +63,7 @@ impl Unknowns {
         self.lines.iter().map(|line| line.closed.len()).sum()
     }
 
-    /// Gives the lines the solution of the linear problem: port forces and motions.
+    /// Gives the lines the solution of the linear problem: port forces and changes of the motions.
     pub fn accept(&self, solution: &[f64], lines: &mut [ContactLine], axes: &Axes) {
         let mut rest = solution;
         for (unknowns, line) in self.lines.iter().zip(&mut *lines) {
@@ -69,8 +71,8 @@ impl Unknowns {
             unknowns.accept(own, line);
             rest = others;
         }
-        for (value, &k) in rest.iter().zip(&self.axes) {
-            let value = if axes.holds(k) { 0.0 } else { *value };
+        for (change, &k) in rest.iter().zip(&self.axes) {
+            let value = if axes.holds(k) { 0.0 } else { lines[0].traction.rigid[k] + change };
             lines.iter_mut().for_each(|line| line.traction.rigid[k] = value);
         }
     }

@@ -337,6 +337,15 @@ impl ThermalModel {
         thermal.deformation.average(&before.deformation, share);
     }
 
+    /// Test that two contacts conduct heat in the same elements: between them temperatures have a kink, since upwinded
+    /// weights jump from element to element.
+    pub fn conducts_alike(&self, a: &ContactState, b: &ContactState) -> bool {
+        let element = |edge: f64| self.heat.zone_x().partition_point(|&x| x <= edge);
+        let elements =
+            |of: &ContactState| of.traction.edges.iter().map(|e| [e.low, e.high].map(element)).collect::<Vec<_>>();
+        elements(a) == elements(b)
+    }
+
     /// Test that temperatures have the dimensions of this model.
     pub fn fits(&self, thermal: &ThermalState) -> bool {
         let deformation = &thermal.deformation;

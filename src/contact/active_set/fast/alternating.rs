@@ -55,7 +55,7 @@ impl PressureShear {
         self.motions.iter_mut().for_each(Vec::clear);
         for &i in closed {
             let gap = problem.equation(0, i, NodeEquation::Gap, line.gap_terms(i));
-            self.gap.push(problem.constant(&gap, line));
+            self.gap.push(LinearProblem::left_over(&gap, line));
             self.motions.iter_mut().zip(sought).for_each(|(motion, &axis)| motion.push(gap.motions[axis]));
         }
         for (of, offset) in self.rim_angle.iter_mut().zip([1, 0]) {
@@ -67,8 +67,8 @@ impl PressureShear {
         let height = sought.last() == Some(&Axis::Height);
         self.reset(stuck.len() + sought.len() - usize::from(height), height);
         let guess = closed.iter().map(|&i| line.normal(i)).chain(stuck.iter().map(|&i| line.tangential(i)));
-        let motions = sought.iter().map(|&axis| line.traction.rigid[axis]);
-        self.unknowns.iter_mut().zip(guess.chain(motions)).for_each(|(value, guess)| *value = guess);
+        self.unknowns.clear();
+        self.unknowns.extend(guess.chain(sought.iter().map(|_| 0.0)));
     }
 
     /// Writes the equations of the stuck nodes and of the motions.

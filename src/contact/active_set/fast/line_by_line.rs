@@ -72,9 +72,7 @@ struct MotionBalances {
     /// Coefficients of the motions once the forces are eliminated.
     system: DenseSystem,
     known: [f64; Axis::COUNT],
-    /// Motions of the iterate before, and their changes: apart from each other, velocities of hub and rim alone would ask
-    /// for forces thousands of times as large as those that are sought, and rounding with them.
-    present: [f64; Axis::COUNT],
+    /// Changes of the motions.
     changes: [f64; Axis::COUNT],
 }
 
@@ -127,7 +125,6 @@ impl LineByLine {
             let scale = scale(coefficients);
             equations.iter_mut().for_each(|line| line.balances[a].iter_mut().for_each(|value| *value *= scale));
             motions.known[a] = -LinearProblem::left_over(&balance, &lines[0]) * scale;
-            motions.present[a] = lines[0].traction.rigid[axis];
         }
         motions.system.factorise()
     }
@@ -153,8 +150,7 @@ impl LineByLine {
             solved = solved && self.answer(grid, unknowns, &forces, true, &mut change);
             std::mem::swap(&mut forces, &mut change);
         }
-        let MotionBalances { count, present, changes, .. } = &self.motions;
-        forces.extend(present.iter().zip(changes).take(*count).map(|(present, change)| present + change));
+        forces.extend(&self.motions.changes[..self.motions.count]);
         (self.unknowns, self.change) = (forces, change);
         solved
     }

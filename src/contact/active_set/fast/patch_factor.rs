@@ -10,10 +10,9 @@ use crate::contact::kernel::LineKernel;
 use crate::contact::line::ContactGrid;
 use crate::contact::problem::LineProblem;
 use crate::linalg::InverseFactor;
+use crate::lru::Lru;
+use std::convert::Infallible;
 use std::ops::Range;
-
-/// Number of step sizes that are kept, and of factors of each.
-const KEPT: [usize; 2] = [4, 16];
 
 /// Matrices of one patch of neighbouring nodes and of one step size.
 #[derive(Clone, Copy)]
@@ -25,63 +24,60 @@ pub struct PatchMatrices<'a> {
     pub apart: usize,
 }
 
-/// Factors of one step size.
-struct OfStep {
+/// Step size and line to which matrices belong.
+struct StepKey {
     /// Weight of the new value in the time formula [1/s].
     a0: f64,
     /// First normal column of the compliance: those of other models and grids are told apart by it.
     column: Vec<f64>,
     /// Share of the width and flexibility of the line.
     kernel: (f64, LineKernel),
-    /// Gap at all candidates per tangential force at all candidates [m/(N/m)], by columns.
-    coupling: Vec<f64>,
-    /// First closed nodes and their factors, the last one used at the end.
-    factors: Vec<(usize, InverseFactor)>,
 }
 
-/// Factors of the last patches.
-#[derive(Default)]
-pub struct KeptFactors {
-    recent: Vec<OfStep>,
+/// Matrices of one step size.
+struct OfStep {
+    /// Gap at all candidates per tangential force at all candidates [m/(N/m)], by columns.
+    coupling: Vec<f64>,
+    /// Factors by the first closed node.
+    factors: Lru<usize, InverseFactor>,
 }
+
+/// Matrices of the last step sizes and patches.
+#[derive(Default)]
+pub struct KeptFactors(Lru<StepKey, OfStep, 4>);
 
 /// Normal displacement at candidate `i` per normal force at candidate `j` [m/(N/m)].
 fn compliance(problem: &LineProblem, grid: &ContactGrid, i: usize, j: usize) -> f64 {
     problem.compliance(grid.port(i) + 1, grid.port(j) + 1)
 }
 
-impl OfStep {
+impl StepKey {
+    fn new(problem: &LineProblem, grid: &ContactGrid) -> Self {
+        let kernel = (problem.share, problem.kernel);
+        Self { a0: problem.time.a0, column: first_column(problem, grid).to_vec(), kernel }
+    }
+
     /// True if the matrices are those of a problem with this first column.
     fn fits(&self, problem: &LineProblem, column: &[f64]) -> bool {
         let same = (self.a0, self.kernel) == (problem.time.a0, (problem.share, problem.kernel));
         same && self.column == column
     }
+}
 
+impl OfStep {
     fn new(problem: &LineProblem, grid: &ContactGrid) -> Self {
         let nodes = 0..grid.len();
         let of_shear = |j: usize| nodes.clone().map(move |i| problem.compliance(grid.port(i) + 1, grid.port(j)));
-        Self {
-            a0: problem.time.a0,
-            column: first_column(problem, grid).to_vec(),
-            kernel: (problem.share, problem.kernel),
-            coupling: nodes.clone().flat_map(of_shear).collect(),
-            factors: Vec::new(),
-        }
+        Self { coupling: nodes.clone().flat_map(of_shear).collect(), factors: Lru::default() }
     }
 
-    /// Puts the factor of a patch at the end; `None` if there is none.
+    /// Makes the factor of a patch the present one; `None` if there is none.
     fn factor(&mut self, problem: &LineProblem, grid: &ContactGrid, patch: &Range<usize>) -> Option<()> {
-        match self.factors.iter().position(|(first, _)| *first == patch.start) {
-            Some(at) => self.factors[at..].rotate_left(1),
-            None if self.factors.len() < KEPT[1] => self.factors.push((patch.start, InverseFactor::default())),
-            None => {
-                self.factors.rotate_left(1);
-                let (first, factor) = self.factors.last_mut()?;
-                *first = patch.start;
-                factor.truncate(0);
-            }
-        }
-        let (_, factor) = self.factors.last_mut()?;
+        let Ok(()) = self.factors.select(patch.start, |factor| {
+            factor.truncate(0);
+            Ok::<_, Infallible>(())
+        });
+        let factor = self.factors.present_mut();
         for i in patch.start + factor.size()..patch.end {
             let beside = (patch.start..i).map(|j| compliance(problem, grid, i, j));
             factor.append(beside, compliance(problem, grid, i, i))?;
@@ -99,23 +95,13 @@ fn first_column<'a>(problem: &LineProblem<'a>, grid: &ContactGrid) -> &'a [f64] 
 impl KeptFactors {
     /// The matrices of a patch; `None` if its compliance has no inverse.
     pub fn of(&mut self, problem: &LineProblem, grid: &ContactGrid, patch: &Range<usize>) -> Option<PatchMatrices<'_>> {
-        let kept = self.of_step(problem, grid)?;
+        let column = first_column(problem, grid);
+        if !self.0.find(|key| key.fits(problem, column)) {
+            self.0.keep(StepKey::new(problem, grid), OfStep::new(problem, grid));
+        }
+        let kept = self.0.present_mut();
         kept.factor(problem, grid, patch)?;
         let (coupling, apart) = (&kept.coupling[patch.start * (grid.len() + 1)..], grid.len());
-        Some(PatchMatrices { factor: &kept.factors.last()?.1, coupling, apart })
-    }
-
-    fn of_step(&mut self, problem: &LineProblem, grid: &ContactGrid) -> Option<&mut OfStep> {
-        let column = first_column(problem, grid);
-        match self.recent.iter().position(|kept| kept.fits(problem, column)) {
-            Some(at) => self.recent[at..].rotate_left(1),
-            None => {
-                if self.recent.len() >= KEPT[0] {
-                    self.recent.remove(0);
-                }
-                self.recent.push(OfStep::new(problem, grid));
-            }
-        }
-        self.recent.last_mut()
+        Some(PatchMatrices { factor: kept.factors.present(), coupling, apart })
     }
 }
