@@ -8,7 +8,7 @@
 
 use super::axes::Axes;
 use super::fast::LinearSolver;
-use super::pressing::{Pressing, Thoroughness};
+use super::pressing::{PressureSearch, Thoroughness};
 use super::states::Rules;
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::NodeStatus;
@@ -53,7 +53,7 @@ impl Guess {
         lines: &mut [ContactLine],
         axes: &Axes,
         rules: &Rules,
-        pressing: &mut Pressing,
+        pressing: &mut PressureSearch,
         memory: (&mut LinearSolver, &mut [Vec<f64>]),
     ) {
         let skipped = |line: &ContactLine| line.given.rail_slope.is_empty() || line.problem.time.is_stationary();

@@ -22,7 +22,7 @@ pub(super) struct Thoroughness {
 
 /// Memory of the normal problem.
 #[derive(Default)]
-pub(super) struct Pressing {
+pub(super) struct PressureSearch {
     unknowns: Unknowns,
     /// Shear forces, and the gap by them.
     known: Known,
@@ -47,7 +47,7 @@ struct Displaced {
     alone: Vec<f64>,
 }
 
-impl Pressing {
+impl PressureSearch {
     /// Sets closed nodes, gaps, normal forces and height of the hub to those that belong to the shear forces and
     /// velocities at hand; true if states settled. `rows` is memory for the coefficients of all ports.
     pub fn press(

@@ -12,7 +12,7 @@ use super::coefficients::{FollowedLaws, Obedience, Progress};
 use super::fast::LinearSolver;
 use super::guess::Guess;
 use super::linear::{Known, LinearProblem};
-use super::pressing::Pressing;
+use super::pressing::PressureSearch;
 use super::states::{self, Rules};
 use super::unknowns::Unknowns;
 use crate::axes::Axis;
@@ -71,7 +71,7 @@ pub(super) struct SearchMemory {
     pub rows: Vec<Vec<f64>>,
     /// States before an update.
     before: Vec<NodeStatus>,
-    pub pressing: Pressing,
+    pub pressing: PressureSearch,
     guess: Guess,
     pub solver: LinearSolver,
     solved: [u64; 2],

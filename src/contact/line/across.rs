@@ -3,23 +3,10 @@
 //! A lateral force displaces its own line as a logarithm and all lines of the patch as polynomials
 //! ([`crate::contact::flexibility`]); the lateral motion of the hub and the spin add to the slip.
 
-use super::contact_line::{ContactLine, LineIterate};
-use crate::contact::flexibility::{ByPowers, Field, at};
+use super::contact_line::{ContactLine, LineAcross, LineIterate};
+use crate::contact::flexibility::at;
 use crate::contact::line::state::AcrossNodes;
 use crate::multistep::History;
-
-/// Lateral part of a line in the present iterate.
-#[derive(Default)]
-pub struct LineAcross {
-    /// Displacement of the wheel less that of the rail by the line's own lateral forces at all nodes \[m].
-    pub displaced: Vec<f64>,
-    /// Slip velocity of the candidates with centred differences [m/s]: it dissipates.
-    pub centred_slip: Vec<f64>,
-    /// Moments of the lateral forces with the powers of the place [N/m], and what the forces of all lines of the patch do
-    /// to this one across.
-    pub moments: ByPowers,
-    pub field: Field,
-}
 
 impl ContactLine<'_> {
     /// True if tractions and slips have a lateral part.

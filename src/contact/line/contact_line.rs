@@ -1,6 +1,5 @@
 //! One contact line on its way to a solution, and the memory it needs.
 
-use super::across::LineAcross;
 use super::given::KnownPart;
 use super::grid::ContactGrid;
 use super::history::LineHistory;
@@ -11,6 +10,7 @@ use super::slopes::Slopes;
 use super::state::GridState;
 use super::streamline::UpwindRows;
 use crate::axes::PerAxis;
+use crate::contact::flexibility::{ByPowers, Field};
 use crate::contact::limits::RESISTANCE;
 use crate::contact::problem::{LineProblem, Spin};
 use crate::contact::traction::Traction;
@@ -48,6 +48,19 @@ pub struct LineIterate {
     pub displaced: [Vec<f64>; 2],
     /// Lateral part.
     pub across: LineAcross,
+}
+
+/// Lateral part of a line in the present iterate.
+#[derive(Default)]
+pub struct LineAcross {
+    /// Displacement of the wheel less that of the rail by the line's own lateral forces at all nodes \[m].
+    pub displaced: Vec<f64>,
+    /// Slip velocity of the candidates with centred differences [m/s]: it dissipates.
+    pub centred_slip: Vec<f64>,
+    /// Moments of the lateral forces with the powers of the place [N/m], and what the forces of all lines of the patch do
+    /// to this one across.
+    pub moments: ByPowers,
+    pub field: Field,
 }
 
 impl LineScratch {
@@ -135,6 +148,11 @@ impl<'a> ContactLine<'a> {
     pub fn load_of_all(&self) -> f64 {
         let normal = |forces: &DVector<f64>| forces.iter().skip(1).step_by(2).sum::<f64>();
         normal(&self.iterate.others.forces) + self.problem.share * normal(&self.traction.port_forces)
+    }
+
+    /// Closed candidates.
+    pub fn closed_nodes(&self) -> Vec<usize> {
+        (0..self.grid.len()).filter(|&i| self.state.status[i].is_active()).collect()
     }
 
     /// Nodal normal force at candidate `i` [N/m].

@@ -1,4 +1,4 @@
-//! What lines and free motions do to each other, as polynomials.
+//! Coupling of lines and free motions, as polynomials.
 //!
 //! The bodies pass on forces smoothly, so that slips by forces of other lines, slips by motions and parts in the balances
 //! are taken at a few nodes and interpolated. What that leaves out comes back with the exact slips of the next turn.

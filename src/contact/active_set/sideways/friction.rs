@@ -4,11 +4,14 @@
 //! came less near than turns do.
 
 use super::super::search::ActiveSet;
-use super::{TOLERANCE, closed_nodes, slips};
+use super::slips;
 use crate::axes::{Axis, PerAxis};
 use crate::contact::cone::{AlongAcross, ConeProblem, ConeVerdict, Linearised, Newton, TangentialCoupling};
 use crate::contact::error::ContactError;
+use crate::contact::line::contact_line::ContactLine;
 
+/// Violation of friction and change of normal forces that count as none \[1].
+pub const TOLERANCE: f64 = 1e-9;
 /// Violation of friction that ends Newton's method at most, and the share of that before which does \[1].
 const ROUGHEST: f64 = 1e-2;
 const SHARE: f64 = 1e-3;
@@ -32,7 +35,7 @@ impl<const N: usize> Prepared<N> {
     /// Problem of the present iterate of a `search`, from that of the turn `before`, in which friction was violated by `last`
     /// \[1].
     pub fn renewed(before: Option<Self>, search: &mut ActiveSet, last: f64) -> Self {
-        let nodes: Vec<_> = search.lines.iter().map(closed_nodes).collect();
+        let nodes: Vec<_> = search.lines.iter().map(ContactLine::closed_nodes).collect();
         let fits = |before: &Self| before.nodes == nodes && before.axes().eq(search.free_axes());
         if let Some(mut before) = before.filter(fits) {
             before.take(search);

@@ -3,7 +3,8 @@
 //! Normal forces are those of the shear of before ([`super::pressing`]); the shear along and across all lines, with the
 //! motions that are free, is that of these normal forces ([`crate::contact::cone`]). Each turn begins with the exact gaps and
 //! slips of the last one, so that what its equations leave out only makes turns more: [`slips`] has the flexibility of a
-//! line by itself, [`coupling`] what lines and motions do to each other, [`friction`] the shear of a turn. Theory: `docs/theory/sideways.md`.
+//! line by itself, [`coupling`] what lines and motions do to each other, [`friction`] the shear of a turn.
+//! Theory: `docs/theory/sideways.md`.
 
 mod coupling;
 mod friction;
@@ -16,16 +17,13 @@ use super::states::{self, Rules};
 use crate::axes::Axis;
 use crate::contact::error::ContactError;
 use crate::contact::line::contact_line::ContactLine;
-use crate::contact::line::state::NodeStatus;
 use crate::contact::line::{exchange, finish, zone};
-use friction::Prepared;
+use friction::{Prepared, TOLERANCE};
 
 /// Turns at most.
 const MOST: usize = 120;
 /// Extent of the search for the states of the normal problem in a turn.
 const PRESSED: Thoroughness = Thoroughness { most: 80, together: 30, yields: true };
-/// Violation of friction and change of normal forces that count as none \[1].
-const TOLERANCE: f64 = 1e-9;
 /// Violation and change at which coefficients of friction begin to follow their laws \[1].
 const TELLING: f64 = 1e-3;
 /// Way of the material in a step, over the distance of the nodes, at which it stands \[1].
@@ -68,7 +66,7 @@ impl ActiveSet<'_> {
     fn turn_about<const N: usize>(&mut self, turns: &mut Turns) -> Result<bool, ContactError> {
         let (mut prepared, mut last) = (None, f64::INFINITY);
         while turns.made < MOST {
-            if self.lines.iter().any(|line| closed_nodes(line).len() > N) {
+            if self.lines.iter().any(|line| line.closed_nodes().len() > N) {
                 return Ok(false);
             }
             turns.made += 1;
@@ -155,10 +153,6 @@ struct Turns {
     linear_laws: usize,
 }
 
-fn closed_nodes(line: &ContactLine) -> Vec<usize> {
-    (0..line.grid.len()).filter(|&i| line.state.status[i].is_active()).collect()
-}
-
 /// Normal forces of all lines after a turn [N/m].
 struct Pressed(Vec<f64>);
 
@@ -171,14 +165,5 @@ impl Pressed {
     fn change_from(&self, before: &Self, load: f64) -> f64 {
         let changes = self.0.iter().zip(&before.0).map(|(now, before)| (now - before).abs());
         changes.fold(0.0, f64::max) * self.0.len() as f64 / load
-    }
-}
-
-/// State of a closed node that friction asks for.
-fn status(sticks: bool, along: f64) -> NodeStatus {
-    match sticks {
-        true => NodeStatus::Stick,
-        false if along < 0.0 => NodeStatus::SlipBackward,
-        false => NodeStatus::SlipForward,
     }
 }

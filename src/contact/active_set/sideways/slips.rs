@@ -1,9 +1,9 @@
 //! The problem of friction on one line under given normal forces: slips of its closed nodes by their own shear.
 
-use super::status;
 use crate::contact::cone::{AlongAcross, ConeProblem, SLIPS, SlipRows};
 use crate::contact::flexibility::{at, slip_of_field};
 use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::state::NodeStatus;
 use crate::linalg::POINTS;
 
 /// Shear at the closed `nodes` of a line, along and across [N/m].
@@ -23,7 +23,11 @@ pub fn give<const N: usize>(line: &mut ContactLine, nodes: &[usize], shear: &Alo
         let port = line.grid.port(i);
         line.traction.port_forces[port] = shear[0][place];
         line.state.across.force[i] = shear[1][place];
-        line.state.status[i] = status(states[place] == 0, shear[0][place]);
+        line.state.status[i] = match states[place] {
+            0 => NodeStatus::Stick,
+            _ if shear[0][place] < 0.0 => NodeStatus::SlipBackward,
+            _ => NodeStatus::SlipForward,
+        };
     }
 }
 
