@@ -213,7 +213,11 @@ vectorised! {
 vectorised! {
     /// See [`Arch::cauchy`].
     fn cauchy<'a, S, const N: usize>(_simd, arch: &'a Arch, x: &'a [f64; N]) -> [f64; N] {
-        let mut sums = sum(&Powers::at(&arch.places(x)), &arch.terms[..arch.count]);
+        let t = arch.places(x);
+        let mut sums = match within(&t) {
+            true => sum_within(&t, &arch.terms[..arch.count]),
+            false => sum(&Powers::at(&t), &arch.terms[..arch.count]),
+        };
         for sum in &mut sums {
             *sum *= PI;
         }
@@ -256,13 +260,46 @@ fn logarithm_of<const N: usize>(arch: &Arch, x: &[f64; N]) -> [f64; N] {
         orders[k] = (f[k - 1] - if k + 1 < TERMS { f[k + 1] } else { 0.0 }) * SHARES[k];
     }
     orders[TERMS] = f[TERMS - 1] * SHARES[TERMS];
-    let (powers, size) = (Powers::at(&arch.places(x)), libm::log(arch.half_width));
+    let (t, size, scale) = (arch.places(x), libm::log(arch.half_width), FRAC_PI_2 * arch.half_width);
+    if within(&t) {
+        let (mut sums, first) = (sum_within(&t, &orders[..=arch.count]), (size - LN_2) * f[0]);
+        for sum in &mut sums {
+            *sum = scale * (*sum + first);
+        }
+        return sums;
+    }
+    let powers = Powers::at(&t);
     let (mut sums, zeroth) = (sum(&powers, &orders[..=arch.count]), powers.zeroth());
-    let scale = FRAC_PI_2 * arch.half_width;
     for i in 0..N {
         sums[i] = scale * (sums[i] + (zeroth[i] + size) * f[0]);
     }
     sums
+}
+
+/// True if all places are on the stretch.
+#[inline(always)]
+fn within<const N: usize>(t: &[f64; N]) -> bool {
+    // Without a branch for each: the sign of what is left to the end.
+    let mut beyond = 0;
+    for t in t {
+        beyond |= (1.0 - t.abs()).to_bits();
+    }
+    beyond >> 63 == 0
+}
+
+/// `Σ f_k T_{k+1}` at places on the stretch.
+#[inline(always)]
+fn sum_within<const N: usize>(t: &[f64; N], f: &[f64]) -> [f64; N] {
+    let (mut next, mut now) = ([0.0; N], [0.0; N]);
+    for f in f.iter().rev() {
+        for i in 0..N {
+            (next[i], now[i]) = (now[i], f + 2.0 * t[i] * now[i] - next[i]);
+        }
+    }
+    for i in 0..N {
+        now[i] = t[i] * now[i] - next[i];
+    }
+    now
 }
 
 /// How the `Z_n` of several places follow from each other.

@@ -129,8 +129,13 @@ impl SeriesLine<'_> {
         };
         let slips = self.slip(&tables.stick.map(|t| centre + half * t), surface, false);
         let powers = PlaceFactor::new(&self.tractions.stick, self.half_length).powers();
-        let mut terms = [BySolution::default(); ROOT + 1];
-        if !solve(tables, &equations, &slips, &powers, &mut terms) {
+        let (mut right, mut terms) = ([BySolution::default(); STICK], [BySolution::default(); ROOT + 1]);
+        right.iter_mut().zip(as_series(tables, &slips)).for_each(|(right, slip)| right[0] = -slip);
+        for (power, series) in powers.iter().enumerate() {
+            right.iter_mut().zip(series).for_each(|(right, coefficient)| right[1 + power] = *coefficient);
+        }
+        right[1][OF_ROOT] = 1.0;
+        if !solve(&equations, &mut right, &mut terms) {
             return Err(ContactError::Unsuited { reason: "the equations of stick are singular" });
         }
         // Moments of the root are exact: so those of the whole stretch, by which lines feel each other, hardly depend on
@@ -176,32 +181,28 @@ pub(super) struct StickEquations {
 }
 
 vectorised! {
-    /// Writes the terms and the root under which the slip vanishes at the places of stick: with the known `slips` there, and,
-    /// to be taken away, with the powers of the place as series in `T_n`; false: they are not finite.
+    /// Coefficients of `T_n` from values at the places of stick.
+    fn as_series<'a, S>(_simd, tables: &'a Tables, values: &'a [f64; STICK_ROOM]) -> [f64; STICK_ROOM] {
+        let mut series = [0.0; STICK_ROOM];
+        for (value, weights) in values.iter().zip(&tables.stick_terms) {
+            for n in 0..STICK_ROOM {
+                series[n] += value * weights[n];
+            }
+        }
+        series
+    }
+}
+
+vectorised! {
+    /// Writes the terms and the root that make the slips on the right, of which those of [`OF_ROOT`] are 1 in order 1 alone;
+    /// false: they are not finite.
     fn solve<'a, S>(
         _simd,
-        tables: &'a Tables,
         equations: &'a StickEquations,
-        slips: &'a [f64; STICK_ROOM],
-        powers: &'a [ByPowers; POINTS],
+        right: &'a mut [BySolution; STICK],
         terms: &'a mut [BySolution; ROOT + 1],
     ) -> bool {
         let StickEquations { convection, rate, size, upstream } = *equations;
-        let (mut known, mut right) = ([0.0; STICK_ROOM], [BySolution::default(); STICK]);
-        for (slip, weights) in slips.iter().zip(&tables.stick_terms) {
-            for n in 0..STICK_ROOM {
-                known[n] -= slip * weights[n];
-            }
-        }
-        for n in 0..STICK {
-            right[n][0] = known[n];
-        }
-        for (power, series) in powers.iter().enumerate() {
-            for n in 0..POINTS {
-                right[n][1 + power] = series[n];
-            }
-        }
-        right[1][OF_ROOT] = 1.0;
         let (mut pivot, mut over) = (convection, [0.0; STICK]);
         over[1] = 1.0 / pivot;
         for n in 2..STICK {
