@@ -177,12 +177,15 @@ impl Arch {
         for _ in 0..4 {
             let (mut slope, mut bend) = (0.0, 0.0);
             value = 0.0;
+            // Sines and cosines of multiples of the angle, by those of one less.
+            let (sin_one, cos_one) = libm::sincos(angle);
+            let (mut sin, mut cos) = (sin_one, cos_one);
             for (k, f) in self.terms[..self.count].iter().enumerate() {
                 let n = (k + 1) as f64;
-                let (sin, cos) = libm::sincos(n * angle);
                 value += f * sin;
                 slope += n * f * cos;
                 bend -= n * n * f * sin;
+                (sin, cos) = (sin * cos_one + cos * sin_one, cos * cos_one - sin * sin_one);
             }
             if bend >= 0.0 {
                 break;

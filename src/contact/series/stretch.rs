@@ -62,9 +62,7 @@ impl Stretch {
 
     /// Moments of the tractions by power [N/m].
     pub fn moments(&self) -> [BySolution; POINTS] {
-        let mut sums = [BySolution::default(); POINTS];
-        moments_of(&self.moments, &self.terms, &mut sums);
-        sums
+        moments_of(&self.moments, &self.terms)
     }
 
     /// Forces of the tractions [N/m].
@@ -243,19 +241,24 @@ vectorised! {
 }
 
 vectorised! {
-    /// Adds the moments of terms, given those of single ones.
+    /// Moments of terms by power, given those of single ones.
     fn moments_of<'a, S>(
         _simd,
         of_terms: &'a [ByPowers; POINTS + 1],
         terms: &'a [BySolution; ROOT + 1],
-        sums: &'a mut [BySolution; POINTS],
-    ) {
-        for (of_term, terms) in of_terms.iter().zip(terms[..POINTS].iter().chain([&terms[ROOT]])) {
-            for (sums, of_term) in sums.iter_mut().zip(of_term) {
+    ) -> [BySolution; POINTS] {
+        let mut sums = [BySolution::default(); POINTS];
+        for (power, sums) in sums.iter_mut().enumerate() {
+            // Terms of higher numbers have no such moments.
+            for k in 0..=power {
                 for j in 0..sums.len() {
-                    sums[j] += of_term * terms[j];
+                    sums[j] += of_terms[k][power] * terms[k][j];
                 }
             }
+            for j in 0..sums.len() {
+                sums[j] += of_terms[POINTS][power] * terms[ROOT][j];
+            }
         }
+        sums
     }
 }

@@ -59,8 +59,7 @@ impl SeriesContact<'_> {
         for (column, (by, stretch)) in sticking(stretches).enumerate() {
             let (moments, forces) = (stretch.moments(), stretch.forces());
             for (row, (at, _)) in sticking(stretches).enumerate() {
-                let mut slips = [BySolution::default(); POINTS];
-                add_slips(&self.slips_through(&by_bodies, [at, by]), &moments, &mut slips);
+                let slips = slips_of(&self.slips_through(&by_bodies, [at, by]), &moments);
                 // The known tractions stand on the right, the others take away from them.
                 for (p, [known, slips @ ..]) in slips.iter().enumerate() {
                     let (coefficients, side) = system.row(POINTS * row + p);
@@ -194,20 +193,17 @@ struct Pull {
 }
 
 vectorised! {
-    /// Adds the slips by power that belong to moments of several solutions.
-    fn add_slips<'a, S>(
-        _simd,
-        by_moments: &'a ByMoments,
-        moments: &'a [BySolution; POINTS],
-        slips: &'a mut [BySolution; POINTS],
-    ) {
-        for (by_moment, moments) in by_moments.iter().zip(moments) {
-            for (slips, by) in slips.iter_mut().zip(by_moment) {
+    /// Slips by power that belong to moments of several solutions.
+    fn slips_of<'a, S>(_simd, by_moments: &'a ByMoments, moments: &'a [BySolution; POINTS]) -> [BySolution; POINTS] {
+        let mut slips = [BySolution::default(); POINTS];
+        for (p, slips) in slips.iter_mut().enumerate() {
+            for n in 0..POINTS {
                 for j in 0..slips.len() {
-                    slips[j] += by * moments[j];
+                    slips[j] += by_moments[n][p] * moments[n][j];
                 }
             }
         }
+        slips
     }
 }
 
