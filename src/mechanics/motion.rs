@@ -23,6 +23,9 @@ pub(super) trait Equations {
     /// `v` and is used up.
     fn subtract_damping(&self, speed: f64, state: &BodyState, velocity: &mut DVector<f64>, load: &mut DVector<f64>);
 
+    /// Keeps with a state what damping in the next step and its dissipation need of it.
+    fn convect(&self, _state: &mut BodyState) {}
+
     /// Residual flexibility with a retarded response.
     fn layer(&self) -> Option<&RetardedLayer>;
 
@@ -129,6 +132,7 @@ pub(super) fn commit(
     if let Some(layer) = body.layer() {
         layer.commit(&free.retarded, forces, td, &state.retarded, &mut next.retarded);
     }
+    body.convect(next);
 }
 
 #[cfg(test)]

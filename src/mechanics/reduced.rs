@@ -24,6 +24,7 @@ use crate::axes::{Axis, PerAxis};
 use crate::linalg::vectorised::{self, dot};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// State: modal coordinates.
@@ -50,37 +51,12 @@ struct ModalRates {
 }
 
 impl ModalRates {
-    /// Power that the damping of the modes takes at the speed of the stream, with what the truncated modes carry
-    /// ([`ReducedBody::carried`]) [W/m].
-    fn dissipation(
-        &self,
-        state: &BodyState,
-        speed: f64,
-        kinds: ModeKinds,
-        carried: Option<(&DMatrix<f64>, &DVector<f64>)>,
-    ) -> f64 {
-        let (y, v, rates) = (&state.displacement, state.velocity.as_slice(), self.rates.as_slice());
-        let mut power = 0.0;
-        for (modes, others) in kinds.across() {
-            for first in modes.clone().step_by(TOGETHER) {
-                let block = first..(first + TOGETHER).min(modes.end);
-                let mut of_material = [0.0; TOGETHER];
-                let of_material = &mut of_material[..block.len()];
-                of_material.copy_from_slice(&v[block.clone()]);
-                kinds.add_rows(speed, &self.transport, (block.clone(), others.clone()), y, of_material);
-                if let Some((matrix, x)) = carried {
-                    let columns = &matrix.as_slice()[first * matrix.nrows()..];
-                    vectorised::add_products(speed, columns, matrix.nrows(), x.as_slice(), of_material);
-                }
-                power += rates[block].iter().zip(of_material).map(|(rate, v)| rate * *v * *v).sum::<f64>();
-            }
-        }
-        power
+    /// Power that the damping of the modes takes while the stream adds `speed` times the `convected` rates [W/m].
+    fn dissipation(&self, velocity: &[f64], speed: f64, convected: &[f64]) -> f64 {
+        let of_material = velocity.iter().zip(convected).map(|(v, convected)| v + speed * convected);
+        self.rates.as_slice().iter().zip(of_material).map(|(rate, v)| rate * v * v).sum()
     }
 }
-
-/// Modes whose damping is added up together.
-const TOGETHER: usize = 16;
 
 /// Solutions with the matrix `A = a0² + a0 D + diag(Ω²)` of a step.
 struct Factorised {
@@ -110,6 +86,28 @@ impl ReducedBody {
     fn carried<'a>(&'a self, state: &'a BodyState) -> Option<(&'a DMatrix<f64>, &'a DVector<f64>)> {
         let forces = &state.retarded.now;
         self.basis.carried.as_ref().filter(|carried| carried.nrows() == forces.len()).map(|carried| (carried, forces))
+    }
+
+    /// Rates of the modes by a stream of speed 1, as they were kept or anew.
+    fn convected<'a>(&self, modal: &ModalRates, state: &'a BodyState) -> Cow<'a, [f64]> {
+        if state.convected.len() == state.displacement.len() {
+            return Cow::Borrowed(state.convected.as_slice());
+        }
+        let mut convected = DVector::zeros(0);
+        self.write_convected(modal, state, &mut convected);
+        Cow::Owned(convected.as_slice().to_vec())
+    }
+
+    fn write_convected(&self, modal: &ModalRates, state: &BodyState, out: &mut DVector<f64>) {
+        fit(out, self.basis.modes());
+        out.fill(0.0);
+        for (modes, others) in self.kinds.across() {
+            let own = &mut out.as_mut_slice()[modes.clone()];
+            self.kinds.add_rows(1.0, &modal.transport, (modes, others), &state.displacement, own);
+        }
+        if let Some((carried, forces)) = self.carried(state) {
+            add_products(1.0, carried, forces, out);
+        }
     }
 
     fn factorised(&self, a0: f64) -> Result<Factorised, MechanicsError> {
@@ -153,17 +151,19 @@ impl Equations for ReducedBody {
         }
         if let Some(modal) = &self.modal {
             if speed != 0.0 {
-                for (modes, others) in self.kinds.across() {
-                    let own = &mut velocity.as_mut_slice()[modes.clone()];
-                    self.kinds.add_rows(speed, &modal.transport, (modes, others), &state.displacement, own);
-                }
-                if let Some((carried, forces)) = self.carried(state) {
-                    add_products(speed, carried, forces, velocity);
-                }
+                let convected = self.convected(modal, state);
+                velocity.as_mut_slice().iter_mut().zip(convected.iter()).for_each(|(v, convected)| *v += speed * convected);
             }
             let rates = modal.rates.as_slice().iter().zip(velocity.as_slice());
             load.as_mut_slice().iter_mut().zip(rates).for_each(|(load, (rate, v))| *load -= rate * v);
         }
+    }
+
+    fn convect(&self, state: &mut BodyState) {
+        let Some(modal) = &self.modal else { return };
+        let mut convected = std::mem::take(&mut state.convected);
+        self.write_convected(modal, state, &mut convected);
+        state.convected = convected;
     }
 
     fn layer(&self) -> Option<&RetardedLayer> {
@@ -264,8 +264,9 @@ impl BodyResponse for ReducedBody {
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {
         let damping = self.basis.damping.as_ref();
         let dashpots = damping.map_or(0.0, |damping| quadratic_form(damping, &state.velocity));
-        let modes =
-            self.modal.as_ref().map_or(0.0, |modal| modal.dissipation(state, speed, self.kinds, self.carried(state)));
+        let modes = self.modal.as_ref().map_or(0.0, |modal| {
+            modal.dissipation(state.velocity.as_slice(), speed, &self.convected(modal, state))
+        });
         dashpots + modes + self.layer.as_ref().map_or(0.0, |layer| layer.dissipation(&state.retarded))
     }
 
