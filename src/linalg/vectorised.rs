@@ -62,6 +62,24 @@ pub fn load<V: Copy, const B: usize>(values: &[V], at: usize) -> [V; B] {
     std::array::from_fn(|q| values[q])
 }
 
+/// `y ← y + Σ a x` in whole registers.
+#[inline(always)]
+pub fn add_multiples<S: pulp::Simd, const W: usize, const N: usize>(
+    simd: S,
+    a: [f64; N],
+    x: &[[f64; W]; N],
+    y: &mut [f64; W],
+) {
+    let (y, y_rest) = S::as_mut_simd_f64s(y);
+    for (a, x) in a.iter().zip(x) {
+        let ((x, x_rest), many) = (S::as_simd_f64s(x), simd.splat_f64s(*a));
+        for (y, x) in y.iter_mut().zip(x) {
+            *y = simd.mul_add_e_f64s(many, *x, *y);
+        }
+        y_rest.iter_mut().zip(x_rest).for_each(|(y, x)| *y += a * x);
+    }
+}
+
 /// Terms of the series of [`logarithms`], from the last one on: `1/21, 1/19, … 1/3`.
 const LOGARITHM: [f64; 10] = {
     let (mut terms, mut k) = ([0.0; 10], 0);
