@@ -116,8 +116,7 @@ mod tests {
         for t in [-1.0, -0.3, 0.0, 0.8] {
             let place = (arch.centre + arch.half_width * t) / length;
             for (power, series) in powers.iter().enumerate() {
-                let sum: f64 =
-                    series.iter().enumerate().map(|(n, c)| c * libm::cos(n as f64 * libm::acos(t))).sum();
+                let sum: f64 = series.iter().enumerate().map(|(n, c)| c * libm::cos(n as f64 * libm::acos(t))).sum();
                 assert!((sum - place.powi(power as i32)).abs() < 1e-15, "{power}");
             }
         }
