@@ -173,7 +173,7 @@ pub(super) struct StickEquations {
     convection: f64,
     /// Slip of `T_{k+2}/(k + 2) − T_k/k` by its rate [m/s/Pa].
     rate: f64,
-    /// What stands for `−1/k` of the first term: logarithm of half of the half-length of the stretch over the reach of the line.
+    /// Logarithm of half of the half-length of the stretch over the reach of the line, which stands for `−1/k` of the first term.
     size: f64,
     upstream: f64,
 }
