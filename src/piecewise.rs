@@ -146,30 +146,6 @@ impl Piecewise {
         out.resize(at.len(), 0.0);
     }
 
-    /// Values of several functions at ascending positions, see [`Self::at`]: those with the nodes of the first one share its
-    /// pieces.
-    pub fn sample_all<const N: usize>(all: [&Self; N], at: &[f64]) -> [Vec<f64>; N] {
-        let mut sampled = all.map(|_| Vec::with_capacity(at.len()));
-        let Some(Self { x, .. }) = all.first().copied().filter(|first| all.iter().all(|one| one.x == first.x)) else {
-            all.iter().zip(&mut sampled).for_each(|(one, sampled)| one.sample(at, sampled));
-            return sampled;
-        };
-        let ends = x.first().zip(x.last());
-        let mut next = 0;
-        for &at in at {
-            if !ends.is_some_and(|(&first, &last)| at >= first && at <= last) {
-                sampled.iter_mut().for_each(|sampled| sampled.push(0.0));
-                continue;
-            }
-            while next < x.len() && x[next] <= at {
-                next += 1;
-            }
-            let place = PiecePlace::new(x, at, next);
-            sampled.iter_mut().zip(all).for_each(|(sampled, one)| sampled.push(place.value(&one.value)));
-        }
-        sampled
-    }
-
     /// Multiplies all values by a factor.
     pub fn scale(&mut self, factor: f64) {
         self.value.iter_mut().for_each(|v| *v *= factor);
@@ -224,34 +200,13 @@ pub fn interpolate(x: &[f64], values: &[f64], at: f64) -> f64 {
 ///
 /// Lets a caller decide on which side of a jump, or within which rounding, a position lies. Zero without nodes.
 pub fn between(x: &[f64], values: &[f64], at: f64, next: usize) -> f64 {
-    PiecePlace::new(&x[..x.len().min(values.len())], at, next).value(values)
-}
-
-/// Position between nodes, the same for all functions that have these.
-struct PiecePlace {
-    node: usize,
-    /// Way to the next node.
-    share: f64,
-}
-
-impl PiecePlace {
-    fn new(x: &[f64], at: f64, next: usize) -> Self {
-        if next == 0 || next >= x.len() {
-            return Self { node: next.clamp(1, x.len().max(1)) - 1, share: 0.0 };
-        }
-        let (from, to) = (x[next - 1], x[next]);
-        let share = ((at - from) / (to - from)).clamp(0.0, 1.0);
-        if share == 1.0 { Self { node: next, share: 0.0 } } else { Self { node: next - 1, share } }
+    let last = x.len().min(values.len());
+    if next == 0 || next >= last {
+        return if last == 0 { 0.0 } else { values[next.clamp(1, last) - 1] };
     }
-
-    /// Zero without nodes.
-    fn value(&self, values: &[f64]) -> f64 {
-        let Self { node, share } = *self;
-        match share == 0.0 {
-            true => values.get(node).copied().unwrap_or(0.0),
-            false => values[node] + share * (values[node + 1] - values[node]),
-        }
-    }
+    let (from, to) = (x[next - 1], x[next]);
+    let share = ((at - from) / (to - from)).clamp(0.0, 1.0);
+    if share == 1.0 { values[next] } else { values[next - 1] + share * (values[next] - values[next - 1]) }
 }
 
 /// Values at both ends of the straight line with the mean and the first moment of a piecewise linear function through
@@ -375,21 +330,6 @@ mod tests {
     /// A ramp to 2 at x = 1, a jump down to −1, level until x = 3.
     fn ramp_and_jump() -> Piecewise {
         Piecewise { x: vec![0.0, 1.0, 1.0, 3.0], value: vec![0.0, 2.0, -1.0, -1.0] }
-    }
-
-    #[test]
-    fn samples_of_several_functions_are_those_of_each() {
-        let x = vec![-1.0, -0.5, 0.0, 0.0, 0.25, 1.0];
-        let values = |shift: f64| x.iter().map(|x| (3.0 * x + shift).sin()).collect();
-        let [a, b] = [0.0, 1.0].map(|shift| Piecewise { x: x.clone(), value: values(shift) });
-        let other = Piecewise { x: vec![-0.7, 0.3], value: vec![1.0, -2.0] };
-        let at: Vec<f64> = (-30..=30).map(|k| f64::from(k) / 24.0).collect();
-        for all in [[&a, &b], [&a, &other]] {
-            for (sampled, one) in Piecewise::sample_all(all, &at).iter().zip(all) {
-                assert!(sampled.iter().zip(&at).all(|(value, &x)| *value == one.at(x)));
-            }
-        }
-        assert_eq!(Piecewise::sample_all([&Piecewise::default()], &at), [vec![0.0; at.len()]]);
     }
 
     #[test]

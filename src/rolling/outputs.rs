@@ -69,12 +69,10 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
 /// Profiles of the tractions of a line across the contact zone.
 fn traction_outputs(model: &RollingModel, traction: &Traction, others: Outputs) -> Outputs {
     let points = profile_points(model.zone);
-    let Traction { pressure, shear, slip, .. } = traction;
-    let [profile_pressure, profile_shear, profile_slip] = Piecewise::sample_all([pressure, shear, slip], &points);
     Outputs {
-        profile_pressure,
-        profile_shear,
-        profile_slip,
+        profile_pressure: sampled(&traction.pressure, &points),
+        profile_shear: sampled(&traction.shear, &points),
+        profile_slip: sampled(&traction.slip, &points),
         profile_shear_z: sampled(&traction.lateral_shear, &points),
         profile_slip_z: sampled(&traction.lateral_slip, &points),
         profile_x: points,
