@@ -1,5 +1,6 @@
 //! Sparse Cholesky factorisation `A = L Lᵀ` of symmetric positive definite matrices (faer).
 
+use super::vectorised::add_multiples;
 use super::{CsrMatrix, LinalgError};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::perm::PermRef;
@@ -217,20 +218,20 @@ impl<const W: usize> pulp::WithSimd for Substitution<'_, W> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
+    fn with_simd<S: pulp::Simd>(self, simd: S) {
         let Self { factor, lines } = self;
         for s in 0..factor.symbolic().n_supernodes() {
             let node = factor.supernode(s);
             let (start, height) = (node.start(), node.val().nrows());
             let values = &factor.values()[factor.symbolic().col_ptr_for_val()[s]..];
             let columns = values.chunks_exact(height).take(node.val().ncols());
-            forward(columns, start, node.pattern(), lines);
+            forward(simd, columns, start, node.pattern(), lines);
         }
         for s in (0..factor.symbolic().n_supernodes()).rev() {
             let node = factor.supernode(s);
             let (start, height) = (node.start(), node.val().nrows());
             let values = &factor.values()[factor.symbolic().col_ptr_for_val()[s]..];
-            backward(&values[..height * node.val().ncols()], height, start, node.pattern(), lines);
+            backward(simd, &values[..height * node.val().ncols()], height, (start, node.pattern()), lines);
         }
     }
 }
@@ -246,7 +247,8 @@ const TOGETHER: usize = 4;
 
 /// Forward substitution with the columns of one supernode, each with its diagonal block first.
 #[inline(always)]
-fn forward<'a, const W: usize>(
+fn forward<'a, S: pulp::Simd, const W: usize>(
+    simd: S,
     columns: impl ExactSizeIterator<Item = &'a [f64]> + Clone,
     start: usize,
     pattern: &[usize],
@@ -264,12 +266,10 @@ fn forward<'a, const W: usize>(
     while let Some(a) = columns.next() {
         match (columns.next(), columns.next(), columns.next()) {
             (Some(b), Some(c), Some(d)) => {
-                let [x, y, z, w] = [lines[j], lines[j + 1], lines[j + 2], lines[j + 3]];
+                let mut less = [lines[j], lines[j + 1], lines[j + 2], lines[j + 3]];
+                less.as_flattened_mut().iter_mut().for_each(|x| *x = -*x);
                 for ((((&row, a), b), c), d) in pattern.iter().zip(a).zip(b).zip(c).zip(d) {
-                    let line = &mut lines[row];
-                    for k in 0..W {
-                        line[k] -= (a * x[k] + b * y[k]) + (c * z[k] + d * w[k]);
-                    }
+                    add_multiples(simd, [*a, *b, *c, *d], &less, &mut lines[row]);
                 }
             }
             (b, c, _) => {
@@ -285,7 +285,13 @@ fn forward<'a, const W: usize>(
 
 /// Backward substitution with the columns of one supernode, `height` numbers each.
 #[inline(always)]
-fn backward<const W: usize>(values: &[f64], height: usize, start: usize, pattern: &[usize], lines: &mut [[f64; W]]) {
+fn backward<S: pulp::Simd, const W: usize>(
+    simd: S,
+    values: &[f64],
+    height: usize,
+    (start, pattern): (usize, &[usize]),
+    lines: &mut [[f64; W]],
+) {
     let count = values.len() / height;
     for first in (0..count).step_by(TOGETHER) {
         let few = TOGETHER.min(count - first);
@@ -294,12 +300,9 @@ fn backward<const W: usize>(values: &[f64], height: usize, start: usize, pattern
         let [a, b, c, d] = [column(0), column(1), column(2), column(3)];
         let mut sums = [[0.0; W]; TOGETHER];
         for ((((&row, a), b), c), d) in pattern.iter().zip(a).zip(b).zip(c).zip(d) {
-            let line = &lines[row];
-            for k in 0..W {
-                sums[0][k] += a * line[k];
-                sums[1][k] += b * line[k];
-                sums[2][k] += c * line[k];
-                sums[3][k] += d * line[k];
+            let line = [lines[row]];
+            for (sum, a) in sums.iter_mut().zip([a, b, c, d]) {
+                add_multiples(simd, [*a], &line, sum);
             }
         }
         for (line, sum) in lines[start + first..start + first + few].iter_mut().zip(&sums) {

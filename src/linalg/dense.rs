@@ -11,10 +11,13 @@ use nalgebra::DMatrix;
 #[derive(Clone, Default)]
 pub struct DenseSystem {
     size: usize,
-    /// Rows of `A`, one after the other; overwritten by the factors of `A Q`, L with a diagonal of 1.
+    /// Rows of `A`, one after the other and each with room for whole registers; overwritten by the factors of `A Q`, L with a
+    /// diagonal of 1.
     rows: Vec<f64>,
     rhs: Vec<f64>,
     permuted: Vec<f64>,
+    /// Row of the pivot, zero up to it.
+    pivots: Vec<f64>,
     /// Unknowns in the order of the columns of `A Q`.
     order: Vec<usize>,
 }
@@ -24,14 +27,14 @@ impl DenseSystem {
     pub fn reset(&mut self, size: usize) {
         self.size = size;
         self.rows.clear();
-        self.rows.resize(size * size, 0.0);
+        self.rows.resize(size * room(size), 0.0);
         self.rhs.clear();
         self.rhs.resize(size, 0.0);
     }
 
     /// Row `i` of the matrix, and its right-hand side.
     pub fn row(&mut self, i: usize) -> (&mut [f64], &mut f64) {
-        (&mut self.rows[i * self.size..(i + 1) * self.size], &mut self.rhs[i])
+        (&mut self.rows[i * room(self.size)..][..self.size], &mut self.rhs[i])
     }
 
     /// Solves the system, which is used up; `None` if the matrix is singular or the solution is not finite.
@@ -46,7 +49,9 @@ impl DenseSystem {
     pub fn factorise(&mut self) -> bool {
         self.order.clear();
         self.order.extend(0..self.size);
-        factorise(&mut self.rows, &mut self.order)
+        self.pivots.clear();
+        self.pivots.resize(room(self.size), 0.0);
+        factorise(&mut self.rows, &mut self.pivots, &mut self.order)
     }
 
     /// `x ← A⁻¹ x` with the factors of [`Self::factorise`]; whether the result is finite.
@@ -67,13 +72,21 @@ impl DenseSystem {
     }
 }
 
+/// Numbers of a row with room for whole registers.
+fn room(size: usize) -> usize {
+    size.next_multiple_of(REGISTER)
+}
+
+/// Numbers in a register, at most.
+const REGISTER: usize = 4;
+
 vectorised! {
-    /// Replaces a matrix, given by rows, by its factors, and exchanges the items of `order` with its columns; false: it is
-    /// singular or not finite.
-    fn factorise<'a, S>(simd, rows: &'a mut [f64], order: &'a mut [usize]) -> bool {
-        let n = order.len();
+    /// Replaces a matrix, given by rows, by its factors, and exchanges the items of `order` with its columns; `pivots` is memory
+    /// for a row of zeros. False: it is singular or not finite.
+    fn factorise<'a, S>(simd, rows: &'a mut [f64], pivots: &'a mut [f64], order: &'a mut [usize]) -> bool {
+        let (n, room) = (order.len(), pivots.len());
         for k in 0..n {
-            let row = &rows[k * n..][..n];
+            let row = &rows[k * room..][..n];
             let mut largest = k;
             for j in k + 1..n {
                 if row[j].abs() > row[largest].abs() {
@@ -81,20 +94,24 @@ vectorised! {
                 }
             }
             if largest > k {
-                rows.chunks_exact_mut(n).for_each(|row| row.swap(k, largest));
+                rows.chunks_exact_mut(room).for_each(|row| row.swap(k, largest));
                 order.swap(k, largest);
             }
-            let (above, below) = rows.split_at_mut((k + 1) * n);
-            let pivots = &above[k * n..];
-            let over = 1.0 / pivots[k];
+            let (above, below) = rows.split_at_mut((k + 1) * room);
+            let row = &above[k * room..][..room];
+            let over = 1.0 / row[k];
             if !over.is_finite() {
                 return false;
             }
-            for row in below.chunks_exact_mut(n) {
+            // Whole registers from the one on in which the pivot's neighbour lies: zeros leave factors beside it as they are.
+            let from = (k + 1) / REGISTER * REGISTER;
+            pivots[k + 1..].copy_from_slice(&row[k + 1..]);
+            pivots[k] = 0.0;
+            let (others, others_rest) = S::as_simd_f64s(&pivots[from.min(room)..]);
+            for row in below.chunks_exact_mut(room) {
                 let factor = row[k] * over;
                 row[k] = factor;
-                let (values, values_rest) = S::as_mut_simd_f64s(&mut row[k + 1..]);
-                let (others, others_rest) = S::as_simd_f64s(&pivots[k + 1..]);
+                let (values, values_rest) = S::as_mut_simd_f64s(&mut row[from..]);
                 let less = simd.splat_f64s(-factor);
                 for (value, other) in values.iter_mut().zip(others) {
                     *value = simd.mul_add_e_f64s(less, *other, *value);
@@ -109,7 +126,7 @@ vectorised! {
 vectorised! {
     /// `x ← U⁻¹ L⁻¹ x` with the factors of a matrix, by rows.
     fn substitute<'a, S>(simd, factors: &'a [f64], x: &'a mut [f64]) {
-        let n = x.len();
+        let (n, room) = (x.len(), room(x.len()));
         let product = |a: &[f64], b: &[f64]| {
             let ((a, a_rest), (b, b_rest)) = (S::as_simd_f64s(a), S::as_simd_f64s(b));
             let zero = simd.splat_f64s(0.0);
@@ -117,10 +134,10 @@ vectorised! {
             simd.reduce_sum_f64s(sum) + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
         };
         for i in 0..n {
-            x[i] -= product(&factors[i * n..][..i], &x[..i]);
+            x[i] -= product(&factors[i * room..][..i], &x[..i]);
         }
         for i in (0..n).rev() {
-            let row = &factors[i * n..][..n];
+            let row = &factors[i * room..][..n];
             x[i] = (x[i] - product(&row[i + 1..], &x[i + 1..])) / row[i];
         }
     }
@@ -129,7 +146,7 @@ vectorised! {
 vectorised! {
     /// `X ← U⁻¹ L⁻¹ X` with the factors of a matrix, both by rows.
     fn substitute_all<'a, S, const N: usize>(_simd, factors: &'a [f64], x: &'a mut [[f64; N]]) {
-        let n = x.len();
+        let (n, room) = (x.len(), room(x.len()));
         let take = |row: &mut [f64; N], factors: &[f64], others: &[[f64; N]]| {
             for (factor, other) in factors.iter().zip(others) {
                 row.iter_mut().zip(other).for_each(|(value, other)| *value -= factor * other);
@@ -137,10 +154,10 @@ vectorised! {
         };
         for i in 0..n {
             let (above, below) = x.split_at_mut(i);
-            take(&mut below[0], &factors[i * n..][..i], above);
+            take(&mut below[0], &factors[i * room..][..i], above);
         }
         for i in (0..n).rev() {
-            let (row, (above, below)) = (&factors[i * n..][..n], x.split_at_mut(i + 1));
+            let (row, (above, below)) = (&factors[i * room..][..n], x.split_at_mut(i + 1));
             take(&mut above[i], &row[i + 1..], below);
             let over = 1.0 / row[i];
             above[i].iter_mut().for_each(|value| *value *= over);

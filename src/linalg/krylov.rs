@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 /// Vectors added to the Krylov space at a time.
 const BLOCK: usize = 4;
 /// Accepted residual `‖T φ − θ φ‖_M / θ` before the final inverse iteration; frequencies are off by its square.
-const TOLERANCE: f64 = 1e-7;
+const TOLERANCE: f64 = 1e-6;
 
 /// Number of vectors in the Krylov space that suffices for `count` modes of bodies as long as they are high, or ten
 /// times as long.
@@ -79,7 +79,7 @@ impl<'a> Krylov<'a> {
     pub fn converge(&mut self, count: usize, report: &mut dyn FnMut(usize)) -> Result<RitzPairs, LinalgError> {
         let n = self.oscillator.factor.size();
         let limit = largest_space(count).min(n);
-        let mut next_check = (5 * count / 2 + 8 * BLOCK).min(limit);
+        let mut next_check = (5 * count / 2 + 6 * BLOCK).min(limit);
         loop {
             let exhausted = self.next.vectors.ncols() == 0;
             if self.size >= next_check || (exhausted && self.size >= count) {

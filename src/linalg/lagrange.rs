@@ -50,21 +50,6 @@ impl Lagrange {
         self.coefficients.each_ref().map(|c| c.iter().rev().fold(0.0, |sum, c| sum * s + c))
     }
 
-    /// Values of all polynomials at several places, by polynomial.
-    #[inline(always)]
-    pub fn values_at<const N: usize>(&self, x: &[f64; N]) -> [[f64; N]; POINTS] {
-        let scale = 1.0 / self.reach;
-        let mut all = [[0.0; N]; POINTS];
-        for (sums, c) in all.iter_mut().zip(&self.coefficients) {
-            for c in c.iter().rev() {
-                for i in 0..N {
-                    sums[i] = sums[i] * (x[i] * scale) + c;
-                }
-            }
-        }
-        all
-    }
-
     /// The polynomial with these values at the points.
     pub fn polynomial(&self, values: &[f64; POINTS]) -> Polynomial {
         let power = |power: usize| values.iter().zip(&self.coefficients).map(|(v, c)| v * c[power]).sum();
@@ -74,6 +59,16 @@ impl Lagrange {
     /// Moments with all polynomials from those with the powers of `x/reach`.
     pub fn moments(&self, of_powers: &[f64; POINTS]) -> [f64; POINTS] {
         self.coefficients.each_ref().map(|c| c.iter().zip(of_powers).map(|(c, moment)| c * moment).sum())
+    }
+
+    /// Moments with all polynomials from those with the powers of `x/length`.
+    pub fn moments_over(&self, of_powers: &[f64; POINTS], length: f64) -> [f64; POINTS] {
+        let (ratio, mut scale) = (length / self.reach, 1.0);
+        self.moments(&of_powers.map(|moment| {
+            let scaled = scale * moment;
+            scale *= ratio;
+            scaled
+        }))
     }
 
     /// Matrix that turns values at the positions `x` into those at the points: least squares.
@@ -139,7 +134,6 @@ mod tests {
             assert!((dot(basis.values(x)) - quartic(x)).abs() < 1e-12);
             assert!((polynomial.at(x) - quartic(x)).abs() < 1e-12 && (polynomial.slope(x) - slope).abs() < 1e-12);
             assert!((basis.values(x).iter().sum::<f64>() - 1.0).abs() < 1e-13);
-            assert!((dot(basis.values_at(&[x, 0.1]).map(|at| at[0])) - quartic(x)).abs() < 1e-12);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Sparse matrices by rows.
 
 use super::LinalgError;
+use super::vectorised::add_multiples;
 use faer::sparse::SymbolicSparseColMatRef;
 use nalgebra::DMatrix;
 
@@ -128,13 +129,26 @@ impl CsrMatrix {
         if self.rows == 0 || self.columns == 0 {
             return y.fill(0.0);
         }
-        let mut lines = vec![[0.0; TOGETHER]; self.columns];
-        for (x, y) in x.chunks(TOGETHER * self.columns).zip(y.chunks_mut(TOGETHER * self.rows)) {
-            for (k, column) in x.chunks(self.columns).enumerate() {
-                lines.iter_mut().zip(column).for_each(|(line, value)| line[k] = *value);
-            }
-            pulp::Arch::new().dispatch(BlockProduct { matrix: self, lines: &lines, y });
+        let (eight, mut lines) = (8 * self.columns, Vec::new());
+        let (mut x, mut y) = (x, y);
+        while x.len() > eight / 2 {
+            let (some, others) = x.split_at(x.len().min(eight));
+            let (product, further) = std::mem::take(&mut y).split_at_mut(some.len() / self.columns * self.rows);
+            self.multiply_together::<8>(some, product, &mut lines);
+            (x, y) = (others, further);
         }
+        if !x.is_empty() {
+            self.multiply_together::<4>(x, y, &mut Vec::new());
+        }
+    }
+
+    /// `Y ← A X` for at most `W` columns one after the other, whose entries are put side by side in `lines`.
+    fn multiply_together<const W: usize>(&self, x: &[f64], y: &mut [f64], lines: &mut Vec<[f64; W]>) {
+        lines.resize(self.columns, [0.0; W]);
+        for (k, column) in x.chunks(self.columns).enumerate() {
+            lines.iter_mut().zip(column).for_each(|(line, value)| line[k] = *value);
+        }
+        pulp::Arch::new().dispatch(BlockProduct { matrix: self, lines, y });
     }
 
     /// `xᵀ A y`.
@@ -188,29 +202,26 @@ impl CsrMatrix {
     }
 }
 
-/// Columns that are multiplied at a time, for which their entries are put side by side.
-const TOGETHER: usize = 8;
-
 /// The product of a matrix with some columns.
-struct BlockProduct<'a> {
+struct BlockProduct<'a, const W: usize> {
     matrix: &'a CsrMatrix,
     /// Entries of the columns, side by side.
-    lines: &'a [[f64; TOGETHER]],
+    lines: &'a [[f64; W]],
     /// Columns of the product, one after the other, as many as wanted.
     y: &'a mut [f64],
 }
 
-impl pulp::WithSimd for BlockProduct<'_> {
+impl<const W: usize> pulp::WithSimd for BlockProduct<'_, W> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
+    fn with_simd<S: pulp::Simd>(self, simd: S) {
         let Self { matrix: CsrMatrix { rows, starts, indices, values, .. }, lines, y } = self;
         for (i, window) in starts.windows(2).enumerate() {
-            let mut sum = [0.0; TOGETHER];
+            let mut sum = [0.0; W];
             let range = window[0]..window[1];
             for (&j, a) in indices[range.clone()].iter().zip(&values[range]) {
-                sum.iter_mut().zip(&lines[j]).for_each(|(sum, x)| *sum += a * x);
+                add_multiples(simd, [*a], &[lines[j]], &mut sum);
             }
             for (column, sum) in y.chunks_mut(*rows).zip(sum) {
                 column[i] = sum;

@@ -62,6 +62,24 @@ pub fn load<V: Copy, const B: usize>(values: &[V], at: usize) -> [V; B] {
     std::array::from_fn(|q| values[q])
 }
 
+/// `y ← y + Σ a x` in whole registers.
+#[inline(always)]
+pub fn add_multiples<S: pulp::Simd, const W: usize, const N: usize>(
+    simd: S,
+    a: [f64; N],
+    x: &[[f64; W]; N],
+    y: &mut [f64; W],
+) {
+    let (y, y_rest) = S::as_mut_simd_f64s(y);
+    for (a, x) in a.iter().zip(x) {
+        let ((x, x_rest), many) = (S::as_simd_f64s(x), simd.splat_f64s(*a));
+        for (y, x) in y.iter_mut().zip(x) {
+            *y = simd.mul_add_e_f64s(many, *x, *y);
+        }
+        y_rest.iter_mut().zip(x_rest).for_each(|(y, x)| *y += a * x);
+    }
+}
+
 /// Terms of the series of [`logarithms`], from the last one on: `1/21, 1/19, … 1/3`.
 const LOGARITHM: [f64; 10] = {
     let (mut terms, mut k) = ([0.0; 10], 0);
@@ -151,36 +169,63 @@ vectorised! {
     /// `out ← out + factor · A x` with the columns of `A`, as long as `out`, whose first entries are `apart` entries
     /// apart.
     fn add_columns<'a, S>(simd, factor: f64, columns: &'a [f64], apart: usize, x: &'a [f64], out: &'a mut [f64]) {
-        let n = out.len();
-        if n == 0 {
+        let lanes = S::F64_LANES;
+        let (mut at, end) = (0, out.len());
+        // A part of the target stays in registers for all columns.
+        while end - at >= 8 * lanes {
+            add_columns_to::<S, 8>(simd, factor, &columns[at..], apart, x, &mut out[at..]);
+            at += 8 * lanes;
+        }
+        while end - at >= 2 * lanes {
+            add_columns_to::<S, 2>(simd, factor, &columns[at..], apart, x, &mut out[at..]);
+            at += 2 * lanes;
+        }
+        if end - at >= lanes {
+            add_columns_to::<S, 1>(simd, factor, &columns[at..], apart, x, &mut out[at..]);
+            at += lanes;
+        }
+        if at == end {
             return;
         }
-        let (out, out_rest) = S::as_mut_simd_f64s(out);
-        // Several columns in one pass over the target.
-        for (columns, x) in columns.chunks(COLUMNS * apart).zip(x.chunks(COLUMNS)) {
-            if x.len() == COLUMNS {
-                let weights: [f64; COLUMNS] = std::array::from_fn(|j| factor * x[j]);
-                let parts: [_; COLUMNS] = std::array::from_fn(|j| S::as_simd_f64s(&columns[j * apart..][..n]));
-                let many = weights.map(|weight| simd.splat_f64s(weight));
-                let [a, b, c, d] = parts.map(|(part, _)| &part[..out.len()]);
-                for (k, out) in out.iter_mut().enumerate() {
-                    let sum = simd.mul_add_e_f64s(many[1], b[k], simd.mul_add_e_f64s(many[0], a[k], *out));
-                    *out = simd.mul_add_e_f64s(many[3], d[k], simd.mul_add_e_f64s(many[2], c[k], sum));
-                }
-                let [a, b, c, d] = [parts[0].1, parts[1].1, parts[2].1, parts[3].1];
-                for (k, out) in out_rest.iter_mut().enumerate() {
-                    *out += weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k] + weights[3] * d[k];
-                }
-            } else {
-                for (column, x) in columns.chunks(apart).zip(x) {
-                    let ((part, rest), weight) = (S::as_simd_f64s(&column[..n]), factor * x);
-                    let many = simd.splat_f64s(weight);
-                    out.iter_mut().zip(part).for_each(|(out, &a)| *out = simd.mul_add_e_f64s(many, a, *out));
-                    out_rest.iter_mut().zip(rest).for_each(|(out, a)| *out += weight * a);
-                }
+        if end < lanes {
+            for (column, x) in columns.chunks(apart).zip(x) {
+                out.iter_mut().zip(column).for_each(|(out, a)| *out += factor * x * a);
             }
+            return;
+        }
+        // The last register overlaps what is done: only its end is added.
+        let mut last = [0.0; WIDEST];
+        add_columns_to::<S, 1>(simd, factor, &columns[end - lanes..], apart, x, &mut last[..lanes]);
+        for (out, last) in out[at..].iter_mut().zip(&last[lanes - (end - at)..lanes]) {
+            *out += last;
         }
     }
+}
+
+/// Numbers in the widest registers.
+const WIDEST: usize = 16;
+
+/// [`add_columns`] for the first `B` registers of `out`.
+#[inline(always)]
+fn add_columns_to<S: pulp::Simd, const B: usize>(
+    simd: S,
+    factor: f64,
+    columns: &[f64],
+    apart: usize,
+    x: &[f64],
+    out: &mut [f64],
+) {
+    let length = B * S::F64_LANES;
+    let out = &mut S::as_mut_simd_f64s(&mut out[..length]).0[..B];
+    let mut sums: [S::f64s; B] = std::array::from_fn(|b| out[b]);
+    for (j, x) in x.iter().enumerate() {
+        let column = &S::as_simd_f64s(&columns[j * apart..][..length]).0[..B];
+        let weight = simd.splat_f64s(factor * x);
+        for b in 0..B {
+            sums[b] = simd.mul_add_e_f64s(weight, column[b], sums[b]);
+        }
+    }
+    out.copy_from_slice(&sums);
 }
 
 vectorised! {

@@ -50,7 +50,7 @@ impl ModeKinds {
     }
 
     /// Modes that a matrix couples which is odd; all where there is one kind.
-    pub fn across(self) -> [Coupled; 2] {
+    fn across(self) -> [Coupled; 2] {
         let [first, second] = self.kinds();
         if second.is_empty() { self.within() } else { [(first.clone(), second.clone()), (second, first)] }
     }
@@ -71,23 +71,6 @@ impl ModeKinds {
             let (x, out) = (&x.as_slice()[columns], &mut out.as_mut_slice()[rows]);
             vectorised::add_columns(factor, block, self.all, x, out);
         }
-    }
-
-    /// `out ← out + factor · A x` at the modes `rows` for an odd matrix with the given transpose, whose modes of the other
-    /// kind are `columns`.
-    pub fn add_rows(
-        self,
-        factor: f64,
-        transposed: &DMatrix<f64>,
-        (rows, columns): Coupled,
-        x: &DVector<f64>,
-        out: &mut [f64],
-    ) {
-        if rows.is_empty() || columns.is_empty() {
-            return;
-        }
-        let block = &transposed.as_slice()[rows.start * self.all + columns.start..];
-        vectorised::add_products(factor, block, self.all, &x.as_slice()[columns], out);
     }
 }
 
@@ -119,13 +102,13 @@ mod tests {
             let mut out = [(); 3].map(|()| DVector::zeros(21));
             kinds.add_odd(3.0, &basis.gyroscopic, &x, &mut out[0]);
             kinds.add_even(3.0, &basis.ale_inertia, &x, &mut out[1]);
-            let (transport, mut whole) = (&basis.character.transport, out[2].clone());
-            for (rows, columns) in kinds.across() {
-                let part = &mut whole.as_mut_slice()[rows.clone()];
-                kinds.add_rows(3.0, &transport.transpose(), (rows, columns), &x, part);
-            }
-            let [gyroscopic, ale_inertia, _] = out;
-            let found = [(gyroscopic, &basis.gyroscopic), (ale_inertia, &basis.ale_inertia), (whole, transport)];
+            kinds.add_odd(3.0, &basis.character.transport, &x, &mut out[2]);
+            let [gyroscopic, ale_inertia, whole] = out;
+            let found = [
+                (gyroscopic, &basis.gyroscopic),
+                (ale_inertia, &basis.ale_inertia),
+                (whole, &basis.character.transport),
+            ];
             let apart = found.map(|(found, matrix)| apart(found, matrix));
             println!("{kinds:?}: {apart:?} apart");
             assert!(apart.iter().all(|apart| *apart < 1e-13));

@@ -24,6 +24,9 @@ pub trait Equations {
     /// `v` and is used up.
     fn subtract_damping(&self, speed: f64, state: &BodyState, velocity: &mut DVector<f64>, load: &mut DVector<f64>);
 
+    /// Keeps with a state what damping in the next step and its dissipation need of it.
+    fn convect(&self, _state: &mut BodyState) {}
+
     /// Residual flexibility with a retarded response.
     fn layer(&self) -> Option<&RetardedLayer>;
 
@@ -131,6 +134,7 @@ pub trait BodyResponse: Equations + Send + Sync {
         if let Some(layer) = self.layer() {
             layer.commit(&free.retarded, forces, td, &state.retarded, &mut next.retarded);
         }
+        self.convect(next);
     }
 
     /// Elastic energy + kinetic energy `½ vᵀMv` of the deformation + its coupling `Σ_k w_k r_kᵀ M v` with the rigid

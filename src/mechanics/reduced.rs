@@ -18,11 +18,12 @@ use super::mirrored::{MirroredModes, symmetric_product};
 use super::motion::{BodyResponse, Equations, centrifugal_work, column};
 use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyState, StepOperator, fit};
-use super::retarded::{RetardedLayer, add_product, add_products, quadratic_form};
+use super::retarded::{RetardedLayer, add_filled, add_product, quadratic_form};
 use super::solver::{Dense, Diagonal, StepSolver};
 use crate::axes::{Axis, PerAxis};
 use crate::linalg::vectorised::{self, dot};
 use nalgebra::{DMatrix, DVector};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// State: modal coordinates.
@@ -30,6 +31,9 @@ pub struct ReducedBody {
     /// Modes, kind by kind, and what else is constant.
     basis: ReducedBasis,
     kinds: ModeKinds,
+    /// Surface values of the modes, and what their basis carries, with a column for each port.
+    by_port: DMatrix<f64>,
+    carried: Option<DMatrix<f64>>,
     /// Modes that are even or odd; `None`: they are neither.
     mirrored: Option<MirroredModes>,
     /// Centrifugal load of the spinning wheel.
@@ -44,42 +48,17 @@ pub struct ReducedBody {
 struct ModalRates {
     /// `2 ζ ω + α0 + α1 ω²` [1/s].
     rates: DVector<f64>,
-    /// Transposed, so that its columns are the rows of `Φᵀ T Φ`.
+    /// `Φᵀ T Φ`.
     transport: DMatrix<f64>,
 }
 
 impl ModalRates {
-    /// Power that the damping of the modes takes at the speed of the stream, with what the truncated modes carry
-    /// ([`ReducedBody::carried`]) [W/m].
-    fn dissipation(
-        &self,
-        state: &BodyState,
-        speed: f64,
-        kinds: ModeKinds,
-        carried: Option<(&DMatrix<f64>, &DVector<f64>)>,
-    ) -> f64 {
-        let (y, v, rates) = (&state.displacement, state.velocity.as_slice(), self.rates.as_slice());
-        let mut power = 0.0;
-        for (modes, others) in kinds.across() {
-            for first in modes.clone().step_by(TOGETHER) {
-                let block = first..(first + TOGETHER).min(modes.end);
-                let mut of_material = [0.0; TOGETHER];
-                let of_material = &mut of_material[..block.len()];
-                of_material.copy_from_slice(&v[block.clone()]);
-                kinds.add_rows(speed, &self.transport, (block.clone(), others.clone()), y, of_material);
-                if let Some((matrix, x)) = carried {
-                    let columns = &matrix.as_slice()[first * matrix.nrows()..];
-                    vectorised::add_products(speed, columns, matrix.nrows(), x.as_slice(), of_material);
-                }
-                power += rates[block].iter().zip(of_material).map(|(rate, v)| rate * *v * *v).sum::<f64>();
-            }
-        }
-        power
+    /// Power that the damping of the modes takes while the stream adds `speed` times the `convected` rates [W/m].
+    fn dissipation(&self, velocity: &[f64], speed: f64, convected: &[f64]) -> f64 {
+        let of_material = velocity.iter().zip(convected).map(|(v, convected)| v + speed * convected);
+        self.rates.as_slice().iter().zip(of_material).map(|(rate, v)| rate * v * v).sum()
     }
 }
-
-/// Modes whose damping is added up together.
-const TOGETHER: usize = 16;
 
 /// Solutions with the matrix `A = a0² + a0 D + diag(Ω²)` of a step.
 struct Factorised {
@@ -97,18 +76,38 @@ impl ReducedBody {
         let (squares, character) = (&basis.squared_frequencies, &basis.character);
         let modal = (!damping.is_none()).then(|| ModalRates {
             rates: damping.modal(squares, character) + squares.map(|w| damping.mass + damping.stiffness * w),
-            transport: character.transport.transpose(),
+            transport: character.transport.clone(),
         });
         let layer = (damping.stiffness > 0.0)
             .then(|| Arc::new(RetardedLayer { flexibility: basis.residual.clone(), time: damping.stiffness }));
-        Self { mirrored: MirroredModes::new(&basis.shapes), basis, kinds, centrifugal, modal, layer }
+        let (by_port, carried) = (basis.shapes.transpose(), basis.carried.as_ref().map(DMatrix::transpose));
+        Self { mirrored: MirroredModes::new(&basis.shapes), by_port, carried, basis, kinds, centrifugal, modal, layer }
     }
 
     /// Convection of the truncated modes into the rates of the kept ones, per force, and the forces that deform them;
     /// `None` without a retarded layer.
     fn carried<'a>(&'a self, state: &'a BodyState) -> Option<(&'a DMatrix<f64>, &'a DVector<f64>)> {
         let forces = &state.retarded.now;
-        self.basis.carried.as_ref().filter(|carried| carried.nrows() == forces.len()).map(|carried| (carried, forces))
+        self.carried.as_ref().filter(|carried| carried.ncols() == forces.len()).map(|carried| (carried, forces))
+    }
+
+    /// Rates of the modes by a stream of speed 1, as they were kept or anew.
+    fn convected<'a>(&self, modal: &ModalRates, state: &'a BodyState) -> Cow<'a, [f64]> {
+        if state.convected.len() == state.displacement.len() {
+            return Cow::Borrowed(state.convected.as_slice());
+        }
+        let mut convected = DVector::zeros(0);
+        self.write_convected(modal, state, &mut convected);
+        Cow::Owned(convected.as_slice().to_vec())
+    }
+
+    fn write_convected(&self, modal: &ModalRates, state: &BodyState, out: &mut DVector<f64>) {
+        fit(out, self.basis.modes());
+        out.fill(0.0);
+        self.kinds.add_odd(1.0, &modal.transport, &state.displacement, out);
+        if let Some((carried, forces)) = self.carried(state) {
+            add_filled(carried, forces, out);
+        }
     }
 
     fn factorised(&self, a0: f64) -> Result<Factorised, MechanicsError> {
@@ -152,17 +151,23 @@ impl Equations for ReducedBody {
         }
         if let Some(modal) = &self.modal {
             if speed != 0.0 {
-                for (modes, others) in self.kinds.across() {
-                    let own = &mut velocity.as_mut_slice()[modes.clone()];
-                    self.kinds.add_rows(speed, &modal.transport, (modes, others), &state.displacement, own);
-                }
-                if let Some((carried, forces)) = self.carried(state) {
-                    add_products(speed, carried, forces, velocity);
-                }
+                let convected = self.convected(modal, state);
+                velocity
+                    .as_mut_slice()
+                    .iter_mut()
+                    .zip(convected.iter())
+                    .for_each(|(v, convected)| *v += speed * convected);
             }
             let rates = modal.rates.as_slice().iter().zip(velocity.as_slice());
             load.as_mut_slice().iter_mut().zip(rates).for_each(|(load, (rate, v))| *load -= rate * v);
         }
+    }
+
+    fn convect(&self, state: &mut BodyState) {
+        let Some(modal) = &self.modal else { return };
+        let mut convected = std::mem::take(&mut state.convected);
+        self.write_convected(modal, state, &mut convected);
+        state.convected = convected;
     }
 
     fn layer(&self) -> Option<&RetardedLayer> {
@@ -188,14 +193,15 @@ impl Equations for ReducedBody {
     fn set_surface(&self, y: &DVector<f64>, square: f64, surface: &mut DVector<f64>) {
         fit(surface, self.basis.shapes.nrows());
         surface.fill(0.0);
-        add_product(1.0, &self.basis.shapes, y, surface);
+        let modes = self.by_port.nrows();
+        vectorised::add_products(1.0, self.by_port.as_slice(), modes, y.as_slice(), surface.as_mut_slice());
         if self.centrifugal {
             surface.axpy(square, &self.basis.centrifugal_residual, 1.0);
         }
     }
 
     fn add_surface_forces(&self, forces: &DVector<f64>, load: &mut DVector<f64>) {
-        add_products(1.0, &self.basis.shapes, forces, load);
+        add_filled(&self.by_port, forces, load);
     }
 }
 
@@ -239,8 +245,10 @@ impl BodyResponse for ReducedBody {
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {
         let damping = self.basis.damping.as_ref();
         let dashpots = damping.map_or(0.0, |damping| quadratic_form(damping, &state.velocity));
-        let modes =
-            self.modal.as_ref().map_or(0.0, |modal| modal.dissipation(state, speed, self.kinds, self.carried(state)));
+        let modes = self
+            .modal
+            .as_ref()
+            .map_or(0.0, |modal| modal.dissipation(state.velocity.as_slice(), speed, &self.convected(modal, state)));
         dashpots + modes + self.layer.as_ref().map_or(0.0, |layer| layer.dissipation(&state.retarded))
     }
 }

@@ -49,6 +49,9 @@ pub struct BodyState {
     pub velocity_before: DVector<f64>,
     /// Elastic forces of the residual flexibility, with stiffness-proportional damping only.
     pub retarded: RetardedForces,
+    /// `L y`, the part of the material's rate of deformation by a stream of speed 1, after steps of modes that are damped;
+    /// otherwise empty.
+    pub convected: DVector<f64>,
 }
 
 impl BodyState {
@@ -62,6 +65,7 @@ impl BodyState {
             displacement_before: z.clone(),
             velocity_before: z,
             retarded: RetardedForces::default(),
+            convected: DVector::zeros(0),
         }
     }
 

@@ -115,13 +115,13 @@ pub(super) fn add_product(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: 
     add_columns(factor, a.as_slice(), out.len(), x.as_slice(), out.as_mut_slice());
 }
 
-/// `out ← out + factor · Aᵀ x`; zeros at the ends of `x` cost nothing.
-pub(super) fn add_products(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
+/// `out ← out + A x`; zeros at the ends of `x` cost nothing.
+pub(super) fn add_filled(a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
     let first = x.iter().position(|value| *value != 0.0).unwrap_or(x.len());
     let filled = first..x.iter().rposition(|value| *value != 0.0).map_or(first, |last| last + 1);
     if !filled.is_empty() {
-        let (columns, x) = (&a.as_slice()[first..], &x.as_slice()[filled]);
-        vectorised::add_products(factor, columns, a.nrows(), x, out.as_mut_slice());
+        let (columns, x) = (&a.as_slice()[first * a.nrows()..], &x.as_slice()[filled]);
+        add_columns(1.0, columns, a.nrows(), x, out.as_mut_slice());
     }
 }
 

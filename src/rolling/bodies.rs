@@ -255,7 +255,10 @@ impl Bodies {
                 &body.displacement_before,
                 &body.velocity_before,
             ];
-            arrays.iter().all(|array| array.len() == n) && body.retarded.fits(response.retarded_len())
+            let convected = body.convected.len();
+            arrays.iter().all(|array| array.len() == n)
+                && (convected == 0 || convected == n)
+                && body.retarded.fits(response.retarded_len())
         };
         let [wheel, rail] = self.of(state);
         fits(&state.wheel, wheel) && fits(&state.rail, rail)

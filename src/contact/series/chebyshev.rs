@@ -131,12 +131,12 @@ impl Arch {
 
     /// `∫ f/(x − s) ds` \[Pa].
     pub fn cauchy<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
-        if self.half_width == 0.0 { [0.0; N] } else { cauchy(self, x) }
+        effect(self, [1.0, 0.0], x)
     }
 
     /// `∫ f ln|x − s| ds` [N/m], lengths in metres.
     pub fn logarithm<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
-        if self.half_width == 0.0 { [0.0; N] } else { logarithm(self, x) }
+        effect(self, [0.0, 1.0], x)
     }
 
     /// True if all numbers are finite and in range.
@@ -177,12 +177,15 @@ impl Arch {
         for _ in 0..4 {
             let (mut slope, mut bend) = (0.0, 0.0);
             value = 0.0;
+            // Sines and cosines of multiples of the angle, by those of one less.
+            let (sin_one, cos_one) = libm::sincos(angle);
+            let (mut sin, mut cos) = (sin_one, cos_one);
             for (k, f) in self.terms[..self.count].iter().enumerate() {
                 let n = (k + 1) as f64;
-                let (sin, cos) = libm::sincos(n * angle);
                 value += f * sin;
                 slope += n * f * cos;
                 bend -= n * n * f * sin;
+                (sin, cos) = (sin * cos_one + cos * sin_one, cos * cos_one - sin * sin_one);
             }
             if bend >= 0.0 {
                 break;
@@ -211,58 +214,90 @@ vectorised! {
 }
 
 vectorised! {
-    /// See [`Arch::cauchy`].
-    fn cauchy<'a, S, const N: usize>(_simd, arch: &'a Arch, x: &'a [f64; N]) -> [f64; N] {
-        let mut sums = sum(&Powers::at(&arch.places(x)), &arch.terms[..arch.count]);
-        for sum in &mut sums {
-            *sum *= PI;
-        }
-        sums
+    /// `weights[0] ∫ f/(x − s) ds + weights[1] ∫ f ln|x − s| ds`.
+    fn effect<'a, S, const N: usize>(_simd, arch: &'a Arch, weights: [f64; 2], x: &'a [f64; N]) -> [f64; N] {
+        effect_of(arch, weights, x)
     }
 }
 
 vectorised! {
-    /// See [`Arch::logarithm`].
-    fn logarithm<'a, S, const N: usize>(_simd, arch: &'a Arch, x: &'a [f64; N]) -> [f64; N] {
-        logarithm_of(arch, x)
-    }
-}
-
-vectorised! {
-    /// `∫ f ln|x − s| ds` of `factor` times the first traction and of the second [N/m].
-    fn logarithm_of_both<'a, S, const N: usize>(
+    /// [`effect`] of `factor` times the first traction and of the second.
+    fn effect_of_both<'a, S, const N: usize>(
         _simd,
         factor: f64,
         tractions: [&'a Arch; 2],
+        weights: [f64; 2],
         x: &'a [f64; N],
     ) -> [f64; N] {
-        let (mut sums, second) = (logarithm_of(tractions[0], x), logarithm_of(tractions[1], x));
-        for i in 0..N {
-            sums[i] = factor * sums[i] + second[i];
+        let mut sums = effect_of(tractions[0], weights.map(|weight| factor * weight), x);
+        if tractions[1].half_width != 0.0 {
+            let second = effect_of(tractions[1], weights, x);
+            for i in 0..N {
+                sums[i] += second[i];
+            }
         }
         sums
     }
 }
 
 #[inline(always)]
-fn logarithm_of<const N: usize>(arch: &Arch, x: &[f64; N]) -> [f64; N] {
+fn effect_of<const N: usize>(arch: &Arch, [by_cauchy, by_logarithm]: [f64; 2], x: &[f64; N]) -> [f64; N] {
     if arch.half_width == 0.0 {
         return [0.0; N];
     }
     let (f, mut orders) = (&arch.terms, [0.0; TERMS + 1]);
-    // By orders n from 1 on: ½ π (f_{n−2} − f_n)/n.
-    orders[0] = -f[1];
-    for k in 1..TERMS {
-        orders[k] = (f[k - 1] - if k + 1 < TERMS { f[k + 1] } else { 0.0 }) * SHARES[k];
+    let (own, scale) = (PI * by_cauchy, FRAC_PI_2 * arch.half_width * by_logarithm);
+    // By orders n from 1 on: π f_{n−1} of the first, ½ π b (f_{n−2} − f_n)/n of the second.
+    orders[0] = own * f[0] - scale * f[1];
+    for k in 1..TERMS - 1 {
+        orders[k] = own * f[k] + scale * ((f[k - 1] - f[k + 1]) * SHARES[k]);
     }
-    orders[TERMS] = f[TERMS - 1] * SHARES[TERMS];
-    let (powers, size) = (Powers::at(&arch.places(x)), libm::log(arch.half_width));
-    let (mut sums, zeroth) = (sum(&powers, &orders[..=arch.count]), powers.zeroth());
-    let scale = FRAC_PI_2 * arch.half_width;
-    for i in 0..N {
-        sums[i] = scale * (sums[i] + (zeroth[i] + size) * f[0]);
+    orders[TERMS - 1] = own * f[TERMS - 1] + scale * (f[TERMS - 2] * SHARES[TERMS - 1]);
+    orders[TERMS] = scale * (f[TERMS - 1] * SHARES[TERMS]);
+    let (t, orders, first) = (arch.places(x), &orders[..=arch.count], scale * f[0]);
+    let size = if first == 0.0 { 0.0 } else { libm::log(arch.half_width) };
+    if within(&t) {
+        let (mut sums, first) = (sum_within(&t, orders), (size - LN_2) * first);
+        for sum in &mut sums {
+            *sum += first;
+        }
+        return sums;
+    }
+    let powers = Powers::at(&t);
+    let mut sums = sum(&powers, orders);
+    if first != 0.0 {
+        let zeroth = powers.zeroth();
+        for i in 0..N {
+            sums[i] += (zeroth[i] + size) * first;
+        }
     }
     sums
+}
+
+/// True if all places are on the stretch.
+#[inline(always)]
+fn within<const N: usize>(t: &[f64; N]) -> bool {
+    // Without a branch for each: the sign of what is left to the end.
+    let mut beyond = 0;
+    for t in t {
+        beyond |= (1.0 - t.abs()).to_bits();
+    }
+    beyond >> 63 == 0
+}
+
+/// `Σ f_k T_{k+1}` at places on the stretch.
+#[inline(always)]
+fn sum_within<const N: usize>(t: &[f64; N], f: &[f64]) -> [f64; N] {
+    let (mut next, mut now) = ([0.0; N], [0.0; N]);
+    for f in f.iter().rev() {
+        for i in 0..N {
+            (next[i], now[i]) = (now[i], f + 2.0 * t[i] * now[i] - next[i]);
+        }
+    }
+    for i in 0..N {
+        now[i] = t[i] * now[i] - next[i];
+    }
+    now
 }
 
 /// How the `Z_n` of several places follow from each other.

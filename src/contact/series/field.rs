@@ -1,9 +1,7 @@
 //! Displacement of lines by the tangential forces of all lines of a patch, as far as it is smooth on each line.
 
 use super::contact::SeriesContact;
-use super::places::{Places, total};
 use super::series_line::SeriesLine;
-use super::tables::QUADRATURE;
 use crate::contact::flexibility::{self, ByPowers};
 
 impl SeriesContact<'_> {
@@ -29,16 +27,6 @@ impl SeriesContact<'_> {
 }
 
 impl SeriesLine<'_> {
-    /// Moments of tractions with the powers of the place.
-    pub fn powers_of(&self, places: &Places) -> ByPowers {
-        let (mut power, scale) = (places.force, 1.0 / self.half_length);
-        std::array::from_fn(|_| {
-            let moment = total(&power, &[1.0; QUADRATURE]);
-            power.iter_mut().zip(&places.x).for_each(|(power, x)| *power *= scale * x);
-            moment
-        })
-    }
-
     /// Changes of the slip with displacement and strain of the field.
     pub fn slip_of_field(&self) -> [f64; 2] {
         let speed = self.rigid.travel + self.rim_velocity();

@@ -18,7 +18,7 @@ use nalgebra::DVector;
 /// Elastic energy of the line's own flexibility [J/m].
 fn energy(line: &SeriesLine) -> f64 {
     let Tractions { slide, stick, .. } = line.tractions;
-    let pressed = total(&line.pressed.force, &line.pressed.logarithm);
+    let pressed = line.pressed.work;
     let own = stick.logarithm(&line.stuck.x);
     let both = std::array::from_fn(|q| 2.0 * slide * line.stuck.logarithm[q] + own[q]);
     let stuck = total(&line.stuck.force, &both);

@@ -22,6 +22,7 @@ mod field;
 mod finish;
 mod hot_layers;
 mod laws;
+mod moments;
 mod normal;
 mod open;
 mod pivoting;

@@ -90,9 +90,7 @@ impl SeriesLine<'_> {
     fn stretch_of(&self, shears: &Shears) -> Stretch {
         let upstream = self.upstream();
         let solutions = shears.each_ref().map(|q| self.constants.of_points.terms_of(q, upstream));
-        let Arch { centre, half_width, .. } = self.tractions.stick;
-        let values = self.powers_at(&self.constants.tables.places.map(|t| centre + half_width * t));
-        Stretch::new(half_width, &self.constants.tables.moments, &values, solutions)
+        Stretch::new(&self.tractions.stick, self.half_length, &solutions)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::chebyshev::Arch;
 use super::constants::Constants;
 use super::hot_layers::{self, SeriesLayers};
-use super::places::{AtPlaces, Places, lifts, place, total, turns};
+use super::places::{AtPlaces, Places, hub_arm, total};
 use super::state::{SeriesState, Tractions, Uncorrected};
 use super::surface::{AtPoints, Moments, SmoothSurfaces, plus};
 use super::tables::{POWER, QUADRATURE};
@@ -70,6 +70,8 @@ pub struct SeriesLine<'a> {
     pub before_friction: f64,
     /// Places of the pressure.
     pub pressed: Places,
+    /// Their forces times the height of the hub above them \[N].
+    hub_arm: f64,
     /// Places of the shear of [`Tractions::stick`].
     pub stuck: Places,
     /// Load of all lines per metre of the bodies' width [N/m].
@@ -115,6 +117,7 @@ impl<'a> SeriesLine<'a> {
             friction,
             before_friction: traction.friction.coefficient,
             pressed: Places::default(),
+            hub_arm: 0.0,
             stuck: Places::default(),
             mean_load: 0.0,
             moments: Moments::default(),
@@ -213,9 +216,9 @@ impl<'a> SeriesLine<'a> {
         if let Some(layers) = &mut self.layers {
             layers.fit(pressure);
         }
-        self.moments.normal = place(tables, points, pressure, &mut self.pressed);
-        self.pressed.logarithm = pressure.logarithm(&self.pressed.x);
-        self.powers[0] = self.powers_of(&self.pressed);
+        self.pressed.put(tables, points, [pressure; 2], self.half_length);
+        self.hub_arm = hub_arm(&self.pressed, self.problem.line.surfaces.radius);
+        (self.moments.normal, self.powers[0]) = (self.pressed.moments, self.pressed.powers);
         self.slide_all();
     }
 
@@ -228,10 +231,9 @@ impl<'a> SeriesLine<'a> {
             self.stuck = Places::default();
             return;
         }
-        let moments = place(tables, points, stick, &mut self.stuck);
-        self.stuck.logarithm = pressure.logarithm(&self.stuck.x);
-        self.moments.tangential = plus(&self.moments.tangential, &moments);
-        self.powers[1] = plus(&self.powers[1], &self.powers_of(&self.stuck));
+        self.stuck.put(tables, points, [stick, pressure], self.half_length);
+        self.moments.tangential = plus(&self.moments.tangential, &self.stuck.moments);
+        self.powers[1] = plus(&self.powers[1], &self.stuck.powers);
     }
 
     /// Takes the moments of the shear with which all of the patch slips.
@@ -245,18 +247,21 @@ impl<'a> SeriesLine<'a> {
     /// vanishes.
     pub fn displace(&mut self, surface: SmoothSurfaces) {
         self.surface = surface;
-        let (kernel, radius) = (self.problem.line.kernel.tangential, self.problem.line.surfaces.radius);
+        let (kernel, arm) = (self.problem.line.kernel.tangential, self.hub_arm);
         let along = &self.surface.wheel.tangential;
-        let [mut sum, arm] = turns(&self.pressed, along, kernel.factor * self.tractions.slide, radius);
+        let mut sum = self.pressed.moved(along, kernel.factor * self.tractions.slide);
         sum += self.over_pressure(|layers, _| layers.along[0]);
         // Betti: the work of the pressure on the displacements by the shear is that of the shear on those by the
         // pressure.
-        sum -= kernel.factor * total(&self.stuck.force, &self.stuck.logarithm);
+        sum -= kernel.factor * self.stuck.work;
         sum += kernel.factor * kernel.reach * self.load() * self.friction_force();
         // Without a load the middle of the places stands for its mean.
         self.rim_angle = match arm > 0.0 {
             true => sum / arm,
-            false => self.constants.points.polynomial(along).at(self.tractions.pressure.centre) / radius,
+            false => {
+                let middle = self.constants.points.polynomial(along).at(self.tractions.pressure.centre);
+                middle / self.problem.line.surfaces.radius
+            }
         };
     }
 
@@ -269,7 +274,7 @@ impl<'a> SeriesLine<'a> {
     /// Forces of the line on the wheel: x, y [N/m], forward moment \[N].
     pub fn resultant(&self) -> PerAxis<f64> {
         let tangential = self.friction_force();
-        let middle = total(&self.pressed.force, &self.pressed.x);
+        let middle = self.half_length * self.pressed.powers[1];
         let rotation = self.lifted() - self.problem.line.radius() * tangential - middle;
         PerAxis { travel: tangential, height: self.load(), rotation, lateral: self.tractions.lateral.total() }
     }
@@ -280,9 +285,12 @@ impl<'a> SeriesLine<'a> {
     /// taken back, and the normal one has no part (`docs/theory/lines.md`, section 3).
     pub fn lifted(&self) -> f64 {
         let kernel = self.problem.line.kernel.tangential;
-        let lift = |places| lifts(places, &self.surface.wheel.normal, self.rim_angle, kernel.factor);
+        let lift = |places: &Places| {
+            let tilt = self.rim_angle * self.half_length * places.powers[1];
+            places.moved(&self.surface.wheel.normal, kernel.factor) - tilt
+        };
         // Places hold the shear to which these displacements belong.
-        let force = self.tractions.slide * self.load() + self.stuck.force.iter().sum::<f64>();
+        let force = self.tractions.slide * self.load() + self.stuck.powers[0];
         let height = kernel.factor * kernel.reach * self.load() + self.problem.line.bodies.lift * self.mean_load;
         self.tractions.slide * lift(&self.pressed) + lift(&self.stuck) + height * force
     }

@@ -4,44 +4,42 @@ use super::chebyshev::Arch;
 use super::constants::Constants;
 use super::series_line::SeriesLine;
 use super::state::Tractions;
-use super::surface::{AtPoints, SmoothSurfaces};
-use crate::contact::flexibility::values;
+use super::surface::{AtPoints, SmoothSurfaces, plus};
+use crate::contact::flexibility::ByPowers;
+use crate::linalg::vectorised::vectorised;
 
 impl SeriesLine<'_> {
     /// Velocity of the wheel surface relative to that of the rail at x [m/s] with the smooth displacements `surface`,
     /// under the pressure, the friction of slip and, if `sticks`, the part that sticking takes away from it.
     pub fn slip<const N: usize>(&self, x: &[f64; N], surface: &SmoothSurfaces, sticks: bool) -> [f64; N] {
         let (Constants { points, .. }, kernel) = (self.constants, self.problem.line.kernel);
-        let (v, rim, radius) = (self.rigid.travel, self.rim_velocity(), self.problem.line.surfaces.radius);
+        let (v, rim, length) = (self.rigid.travel, self.rim_velocity(), self.half_length);
         let (time, along) = (&self.problem.line.time, kernel.tangential.factor);
         let stick = if sticks { self.tractions.stick } else { Arch::default() };
         let tractions = Tractions { stick, ..self.tractions };
-        let (cauchy, pressure) = (tractions.shear_cauchy(x), tractions.pressure.density(x));
         let SmoothSurfaces { wheel, rail } = surface;
         let carried: AtPoints = std::array::from_fn(|k| v * rail.tangential[k] - rim * wheel.tangential[k]);
-        let carried = points.polynomial(&carried);
-        let rigid = v - self.problem.line.radius() * self.rigid.rotation - self.spin() * self.problem.line.position;
-        let warm = self.warm(x, |layers, x| layers.stretch(x, [-rim, v]));
-        let by_lines = match self.problem.line.patch {
-            Some(_) => values(&self.field.slip(self.slip_of_field()), x, self.half_length),
-            None => [0.0; N],
-        };
-        let mut slip: [f64; N] = std::array::from_fn(|i| {
-            let tilt = self.rim_angle * x[i] / (radius * radius - x[i] * x[i]).sqrt();
-            let strains = (v + rim) * along * cauchy[i] + (rim - v) * kernel.coupling * pressure[i];
-            rigid + strains + carried.slope(x[i]) - rim * tilt + warm[i] + by_lines[i]
-        });
+        // What is a polynomial is added up before it is taken at the places.
+        let mut smooth = points.polynomial(&carried).derivative().by_powers(length);
+        smooth[0] += v - self.problem.line.radius() * self.rigid.rotation - self.spin() * self.problem.line.position;
+        if self.problem.line.patch.is_some() {
+            smooth = plus(&smooth, &self.field.slip(self.slip_of_field()));
+        }
+        let mut rest = self.warm(x, |layers, x| layers.stretch(x, [-rim, v]));
+        let mut rate = 0.0;
         if !time.is_stationary() {
-            let (smooth, logarithm) =
-                (points.polynomial(&self.relative(surface, sticks)), tractions.shear_logarithm(x));
-            let past = self.before.kernel.tangential.factor;
-            let own = (past, Some(self.problem.line.share));
-            let [last, before] = self.before.past.each_ref().map(|time| time.at(x, own, points));
-            for i in 0..N {
-                let now = smooth.at(x[i]) - 2.0 * along * logarithm[i];
-                slip[i] += time.a0 * now + time.a1 * last[i] + time.a2 * before[i];
+            rate = -2.0 * along * time.a0;
+            let relative = points.polynomial(&self.relative(surface, sticks)).by_powers(length);
+            smooth.iter_mut().zip(&relative).for_each(|(sum, relative)| *sum += time.a0 * relative);
+            let own = (self.before.kernel.tangential.factor, Some(self.problem.line.share));
+            for (past, weight) in self.before.past.iter().zip([time.a1, time.a2]) {
+                past.add(weight, (x, own, points), length, (&mut smooth, &mut rest));
             }
         }
+        let (shear, pressure) = (tractions.shear_effect([(v + rim) * along, rate], x), tractions.pressure.density(x));
+        let (tilt, squeeze) = (rim * self.rim_angle, (rim - v) * kernel.coupling);
+        let mut slip = add_up(x, &smooth, 1.0 / length, [tilt, self.problem.line.surfaces.radius], [&rest, &shear]);
+        slip.iter_mut().zip(&pressure).for_each(|(slip, pressure)| *slip += squeeze * pressure);
         self.add_layer(&stick, x, &mut slip);
         slip
     }
@@ -69,5 +67,29 @@ impl SeriesLine<'_> {
     pub fn slip_of_layer(&self) -> [f64; 2] {
         let speed = self.rigid.travel + self.rim_velocity();
         [-0.5 * speed, self.problem.line.time.a0].map(|by| by * self.problem.line.layer)
+    }
+}
+
+vectorised! {
+    /// Sums of others, of a polynomial of the places times `scale`, and of the slip of a round wheel that turns with a rim speed times
+    /// the rim angle `tilt` [m/s].
+    fn add_up<'a, S, const N: usize>(
+        _simd,
+        x: &'a [f64; N],
+        polynomial: &'a ByPowers,
+        scale: f64,
+        wheel: [f64; 2],
+        others: [&'a [f64; N]; 2],
+    ) -> [f64; N] {
+        let ([tilt, radius], [first, second], mut sums) = (wheel, others, [0.0; N]);
+        for c in polynomial.iter().rev() {
+            for i in 0..N {
+                sums[i] = sums[i] * (x[i] * scale) + c;
+            }
+        }
+        for i in 0..N {
+            sums[i] += (first[i] + second[i]) - tilt * x[i] / (radius * radius - x[i] * x[i]).sqrt();
+        }
+        sums
     }
 }

@@ -1,6 +1,6 @@
 //! State of a line as series: its tractions, and the displacements that the slip of the next step refers to.
 
-use super::chebyshev::{Arch, logarithm_of_both};
+use super::chebyshev::{Arch, effect_of_both};
 use super::points::{COUNT, Directions};
 use crate::axes::PerAxis;
 use crate::contact::flexibility::{ByPowers, at, powers, values};
@@ -99,17 +99,21 @@ impl SeriesPast {
     /// Displacement across at x \[m], carried on by a line with the given share of the width.
     pub fn across<const N: usize>(&self, x: &[f64; N], share: f64) -> [f64; N] {
         let (carried, AcrossPast { field, kernel }) = (self.carried(share), self.across);
-        let (by_lines, shear) = (self.by_lines(&field, carried, x), &self.tractions.lateral);
+        let (by_lines, shear) = (self.field_at(&self.by_lines(&field, carried), x), &self.tractions.lateral);
         let (own, total, layer) = (shear.logarithm(x), kernel.reach * shear.total(), layered(self.layer, shear, x));
         std::array::from_fn(|i| by_lines[i] + layer[i] + 2.0 * carried * kernel.factor * (total - own[i]))
     }
 
-    /// Displacement by the lines of the patch, carried on with a factor \[m].
-    fn by_lines<const N: usize>(&self, [field, growth]: &[ByPowers; 2], carried: f64, x: &[f64; N]) -> [f64; N] {
-        let sum: ByPowers = std::array::from_fn(|k| field[k] + 2.0 * (1.0 - carried) * growth[k]);
+    /// Displacement by the lines of the patch, carried on with a factor, as a polynomial of the place over the half-length \[m].
+    fn by_lines(&self, [field, growth]: &[ByPowers; 2], carried: f64) -> ByPowers {
+        std::array::from_fn(|k| field[k] + 2.0 * (1.0 - carried) * growth[k])
+    }
+
+    /// Such a displacement at x \[m].
+    fn field_at<const N: usize>(&self, field: &ByPowers, x: &[f64; N]) -> [f64; N] {
         match x.iter().all(|x| x.abs() <= self.half_length) {
-            true => values(&sum, x, self.half_length),
-            false => x.map(|x| at(&sum, &powers(x / self.half_length))),
+            true => values(field, x, self.half_length),
+            false => x.map(|x| at(field, &powers(x / self.half_length))),
         }
     }
 
@@ -202,14 +206,14 @@ impl Tractions {
         self.together(self.pressure.density(x), self.stick.density(x))
     }
 
-    /// `∫ q/(x − s) ds` \[Pa].
-    pub fn shear_cauchy<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
-        self.together(self.pressure.cauchy(x), self.stick.cauchy(x))
+    /// `weights[0] ∫ q/(x − s) ds + weights[1] ∫ q ln|x − s| ds`.
+    pub fn shear_effect<const N: usize>(&self, weights: [f64; 2], x: &[f64; N]) -> [f64; N] {
+        effect_of_both(self.slide, [&self.pressure, &self.stick], weights, x)
     }
 
     /// `∫ q ln|x − s| ds` [N/m].
     pub fn shear_logarithm<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
-        logarithm_of_both(self.slide, [&self.pressure, &self.stick], x)
+        self.shear_effect([0.0, 1.0], x)
     }
 
     /// Force on the wheel `∫ q ds` [N/m].
@@ -261,19 +265,50 @@ impl Past {
 
     /// Displacement at x \[m]; `kernel` of one half-plane [m/(N/m)]. It is carried on by the line with the given share of
     /// the width; `None`: by one like that which had it.
-    pub fn at<const N: usize>(&self, x: &[f64; N], (kernel, share): (f64, Option<f64>), points: &Lagrange) -> [f64; N] {
-        match self {
-            Past::Series(past) => {
-                let carried = share.map_or(1.0, |share| past.carried(share));
-                let by_lines = past.by_lines(&past.field, carried, x);
-                let (smooth, logarithm) = (points.polynomial(&past.smooth), past.tractions.shear_logarithm(x));
-                let own = (carried - 1.0) * 2.0 * kernel * past.reach * past.tractions.total();
-                let layer = layered(past.layer, &past.tractions.stick, x);
-                std::array::from_fn(|i| {
-                    smooth.at(x[i]) + by_lines[i] + own + layer[i] - 2.0 * carried * kernel * logarithm[i]
-                })
+    pub fn at<const N: usize>(&self, x: &[f64; N], own: (f64, Option<f64>), points: &Lagrange) -> [f64; N] {
+        let (mut polynomial, mut rest) = (ByPowers::default(), [0.0; N]);
+        self.add(1.0, (x, own, points), points.reach, (&mut polynomial, &mut rest));
+        let smooth = values(&polynomial, x, points.reach);
+        std::array::from_fn(|i| smooth[i] + rest[i])
+    }
+
+    /// Adds `weight` times the displacement, see [`Self::at`]: what is a polynomial to one by powers of the place over a
+    /// `length` \[m], and the rest at the places x.
+    pub fn add<const N: usize>(
+        &self,
+        weight: f64,
+        (x, (kernel, share), points): (&[f64; N], (f64, Option<f64>), &Lagrange),
+        length: f64,
+        (polynomial, rest): (&mut ByPowers, &mut [f64; N]),
+    ) {
+        let past = match self {
+            Past::Series(past) => past,
+            Past::Grid(past) => {
+                let along = past.between(&past.along, x);
+                rest.iter_mut().zip(&along).for_each(|(rest, along)| *rest += weight * along);
+                return;
             }
-            Past::Grid(past) => past.between(&past.along, x),
+        };
+        let carried = share.map_or(1.0, |share| past.carried(share));
+        let smooth = points.polynomial(&past.smooth).by_powers(length);
+        polynomial.iter_mut().zip(&smooth).for_each(|(sum, smooth)| *sum += weight * smooth);
+        polynomial[0] += weight * (carried - 1.0) * 2.0 * kernel * past.reach * past.tractions.total();
+        let field = past.by_lines(&past.field, carried);
+        if x.iter().all(|x| x.abs() <= past.half_length) {
+            let (ratio, mut scale) = (length / past.half_length, weight);
+            for (sum, by) in polynomial.iter_mut().zip(&field) {
+                *sum += scale * by;
+                scale *= ratio;
+            }
+        } else {
+            let field = past.field_at(&field, x);
+            rest.iter_mut().zip(&field).for_each(|(rest, by)| *rest += weight * by);
+        }
+        let own = past.tractions.shear_effect([0.0, -2.0 * carried * kernel * weight], x);
+        rest.iter_mut().zip(&own).for_each(|(rest, own)| *rest += own);
+        if past.layer != 0.0 {
+            let layer = layered(past.layer, &past.tractions.stick, x);
+            rest.iter_mut().zip(&layer).for_each(|(rest, layer)| *rest += weight * layer);
         }
     }
 

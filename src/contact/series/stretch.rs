@@ -1,12 +1,17 @@
 //! The linear problem of one line of which a given stretch sticks, as a function of what it shares with other lines.
+//!
+//! The slip at the places where the surfaces stick vanishes as a series in `T_n`, `n ≤ 10`. A term of the shear `U_k` adds
+//! `T_{k+1}` by convection, and `T_{k+2}/(k + 2) − T_k/k` by its rate ([`super::chebyshev`]). So the equations of order
+//! n ≥ 1, multiplied by n, hold the terms n − 2, n − 1 and n, with opposite coefficients of both outer ones: elimination
+//! without pivots keeps the sign of the diagonal and makes it larger.
 
 use super::chebyshev::{Arch, TERMS};
-use super::equations::{Coefficients, ROOM, eliminate};
-use super::places::{AtPlaces, moments};
+use super::equations::Coefficients;
+use super::moments::PlaceFactor;
 use super::series_line::SeriesLine;
 use super::state::Tractions;
 use super::surface::SmoothSurfaces;
-use super::tables::{SHEAR, STICK, Tables};
+use super::tables::{SHEAR, STICK, STICK_ROOM, Tables};
 use crate::contact::error::ContactError;
 use crate::contact::flexibility::ByPowers;
 use crate::linalg::POINTS;
@@ -20,56 +25,57 @@ const ROOT_PLACES: [f64; 4] =
 /// Place of the root behind the terms of the shear.
 const ROOT: usize = TERMS;
 
+/// A number for each solution: that of the known part of the slip, those for each power, and room for whole registers.
+pub type BySolution = [f64; 8];
+/// Place of the solution for the root in [`solve`].
+const OF_ROOT: usize = 1 + POINTS;
+
 /// Tractions of a stretch that sticks: terms of the shear and the strength of a root at the end where slip begins
 /// \[Pa], for the known part of the slip and for the slip of all else, which is a polynomial: per unit of every power of
 /// the place over the half-length of the line.
 pub struct Stretch {
     /// Half of its length \[m].
     half: f64,
-    /// Moments of the terms of the shear and, behind them, of the root with the powers \[m].
-    moments: [ByPowers; ROOT + 1],
-    /// Solutions: of the known part, then those that a unit of each power takes away.
-    solutions: [Coefficients; 1 + POINTS],
+    /// Moments of the first terms of the shear and, behind them, of the root with the powers \[m]; further terms have none.
+    moments: [ByPowers; POINTS + 1],
+    /// Terms and root in all solutions: of the known part, then those that a unit of each power takes away.
+    terms: [BySolution; ROOT + 1],
 }
 
 impl Stretch {
-    /// Tractions on half of a length `half` \[m] with the given terms; `of_terms` times `powers` are summed to the moments of
-    /// the terms.
-    pub fn new(
-        half: f64,
-        of_terms: &[AtPlaces; TERMS],
-        powers: &[AtPlaces; POINTS],
-        solutions: [Coefficients; 1 + POINTS],
-    ) -> Self {
-        let mut all = [ByPowers::default(); ROOT + 1];
-        all[..TERMS].copy_from_slice(&moments(of_terms, powers, half));
-        Self { half, moments: all, solutions }
-    }
-
-    /// Moments with the powers [N/m] of the tractions of a solution.
-    fn moments_of(&self, x: &Coefficients) -> ByPowers {
-        let mut sums = ByPowers::default();
-        for (term, moments) in x.iter().zip(&self.moments) {
-            sums.iter_mut().zip(moments).for_each(|(sum, moment)| *sum += term * moment);
+    /// Tractions on a `stretch` of a line of a half-length `length` \[m] with the given terms by solution, without a root.
+    pub fn new(stretch: &Arch, length: f64, solutions: &[Coefficients; 1 + POINTS]) -> Self {
+        let mut terms = [BySolution::default(); ROOT + 1];
+        for (k, terms) in terms[..TERMS].iter_mut().enumerate() {
+            terms.iter_mut().zip(solutions).for_each(|(term, solution)| *term = solution[k]);
         }
-        sums
+        Self::of_terms(stretch, length, ByPowers::default(), terms)
     }
 
-    /// Moments of the tractions under the known slip, and those that a unit of each power takes away.
-    pub fn moments(&self) -> [ByPowers; 1 + POINTS] {
-        self.solutions.each_ref().map(|x| self.moments_of(x))
+    /// Tractions with the given terms, and moments of the root with the powers \[m].
+    fn of_terms(stretch: &Arch, length: f64, root: ByPowers, terms: [BySolution; ROOT + 1]) -> Self {
+        let (half, of_terms) = (stretch.half_width, PlaceFactor::new(stretch, length).moments());
+        let mut moments = [root; POINTS + 1];
+        moments[..POINTS].copy_from_slice(&of_terms.map(|moments| moments.map(|moment| half * moment)));
+        Self { half, moments, terms }
     }
 
-    /// Force of the tractions under the known slip [N/m], and those that a unit of each power takes away.
-    pub fn forces(&self) -> [f64; 1 + POINTS] {
-        self.solutions.each_ref().map(|x| FRAC_PI_2 * self.half * (x[0] + 2.0 * x[ROOT]))
+    /// Moments of the tractions by power [N/m].
+    pub fn moments(&self) -> [BySolution; POINTS] {
+        moments_of(&self.moments, &self.terms)
+    }
+
+    /// Forces of the tractions [N/m].
+    pub fn forces(&self) -> BySolution {
+        let [first, root] = [&self.terms[0], &self.terms[ROOT]];
+        std::array::from_fn(|j| FRAC_PI_2 * self.half * (first[j] + 2.0 * root[j]))
     }
 
     /// Terms of the shear and the root under a slip besides the known one \[Pa].
     pub fn tractions(&self, slip: &ByPowers) -> Coefficients {
-        let mut x = self.solutions[0];
-        for (value, solution) in slip.iter().zip(&self.solutions[1..]) {
-            x.iter_mut().zip(solution).for_each(|(x, by)| *x -= value * by);
+        let mut x = Coefficients::default();
+        for (x, [known, by @ ..]) in x.iter_mut().zip(&self.terms) {
+            *x = known - slip.iter().zip(by).map(|(slip, by)| slip * by).sum::<f64>();
         }
         x
     }
@@ -112,33 +118,27 @@ impl SeriesLine<'_> {
     pub fn stretch(&self, surface: &SmoothSurfaces) -> Result<Stretch, ContactError> {
         let tables = &self.constants.tables;
         let Arch { centre, half_width: half, .. } = self.tractions.stick;
-        let x = tables.stick.map(|t| centre + half * t);
-        let mut columns = [[0.0; ROOM]; STICK + 1 + POINTS];
         let kernel = self.problem.line.kernel.tangential;
-        let factors = SlipFactors {
+        let equations = StickEquations {
             convection: (self.rigid.travel + self.rim_velocity()) * kernel.factor * PI,
-            rate: -2.0 * kernel.factor * self.problem.line.time.a0 * half,
-            size: libm::log(half) - kernel.reach,
+            rate: -PI * kernel.factor * self.problem.line.time.a0 * half,
+            size: libm::log(half) - kernel.reach - LN_2,
             upstream: self.upstream(),
         };
-        write_columns(tables, &factors, &mut columns);
-        let slips = self.slip(&x, surface, false);
-        columns[STICK][..STICK].iter_mut().zip(slips).for_each(|(right, slip)| *right = -slip);
-        let powers = self.powers_at(&x);
-        for (column, power) in columns[STICK + 1..].iter_mut().zip(&powers) {
-            column[..STICK].copy_from_slice(&power[..STICK]);
+        let slips = self.slip(&tables.stick.map(|t| centre + half * t), surface, false);
+        let powers = PlaceFactor::new(&self.tractions.stick, self.half_length).powers();
+        let (mut right, mut terms) = ([BySolution::default(); STICK], [BySolution::default(); ROOT + 1]);
+        right.iter_mut().zip(as_series(tables, &slips)).for_each(|(right, slip)| right[0] = -slip);
+        for (power, series) in powers.iter().enumerate() {
+            right.iter_mut().zip(series).for_each(|(right, coefficient)| right[1 + power] = *coefficient);
         }
-        if !eliminate(&mut columns, STICK) {
+        right[1][OF_ROOT] = 1.0;
+        if !solve(&equations, &mut right, &mut terms) {
             return Err(ContactError::Unsuited { reason: "the equations of stick are singular" });
         }
-        let values = self.powers_at(&tables.places.map(|t| centre + half * t));
-        let mut solutions: [Coefficients; 1 + POINTS] = std::array::from_fn(|k| columns[STICK + k]);
-        solutions.iter_mut().for_each(|x| x.swap(SHEAR, ROOT));
-        let mut stretch = Stretch::new(half, &tables.moments, &values, solutions);
-        // That of the root is exact: so those of the whole stretch, by which lines feel each other, hardly depend on where
-        // slip begins.
-        stretch.moments[ROOT] = self.root_moments();
-        Ok(stretch)
+        // Moments of the root are exact: so those of the whole stretch, by which lines feel each other, hardly depend on
+        // where slip begins.
+        Ok(Stretch::of_terms(&self.tractions.stick, self.half_length, self.root_moments(), terms))
     }
 
     /// Moments of the traction `√((1 − t)/(1 + t))` with the powers, by the rule of Gauss and Chebyshev \[m].
@@ -167,35 +167,98 @@ impl SeriesLine<'_> {
     }
 }
 
-/// Common parts of the coefficients of all terms.
-pub(super) struct SlipFactors {
-    /// Of the Cauchy integrals over π, and of the logarithmic ones.
+/// The equations of stick, but for their right-hand sides.
+pub(super) struct StickEquations {
+    /// Slip of `T_{k+1}` by a term of the shear that is carried through the patch [m/s/Pa].
     convection: f64,
+    /// Slip of `T_{k+2}/(k + 2) − T_k/k` by its rate [m/s/Pa].
     rate: f64,
-    /// Logarithm of the half-length of the stretch over the reach of the line.
+    /// Logarithm of half of the half-length of the stretch over the reach of the line, which stands for `−1/k` of the first term.
     size: f64,
     upstream: f64,
 }
 
 vectorised! {
-    /// Writes the coefficients of the terms of the shear and of the root in the slip at the places of stick.
-    fn write_columns<'a, S>(
-        _simd,
-        tables: &'a Tables,
-        factors: &'a SlipFactors,
-        columns: &'a mut [Coefficients; STICK + 1 + POINTS],
-    ) {
-        let SlipFactors { convection, rate, size, upstream } = *factors;
-        let (terms, others) = columns.split_at_mut(SHEAR);
-        let of_terms = tables.stick_cauchy.iter().zip(&tables.stick_logarithm);
-        for (column, (cauchy, logarithm)) in terms.iter_mut().zip(of_terms) {
-            for i in 0..STICK {
-                column[i] = convection * cauchy[i] + rate * logarithm[i];
+    /// Coefficients of `T_n` from values at the places of stick.
+    fn as_series<'a, S>(_simd, tables: &'a Tables, values: &'a [f64; STICK_ROOM]) -> [f64; STICK_ROOM] {
+        let mut series = [0.0; STICK_ROOM];
+        for (value, weights) in values.iter().zip(&tables.stick_terms) {
+            for n in 0..STICK_ROOM {
+                series[n] += value * weights[n];
             }
         }
-        for ((first, root), t) in terms[0].iter_mut().zip(&mut others[0]).zip(&tables.stick[..STICK]) {
-            *first += rate * FRAC_PI_2 * size;
-            *root = convection * upstream + rate * PI * (-LN_2 + upstream * t + size);
+        series
+    }
+}
+
+vectorised! {
+    /// Writes the terms and the root that make the slips on the right, of which those of [`OF_ROOT`] are 1 in order 1 alone;
+    /// false: they are not finite.
+    fn solve<'a, S>(
+        _simd,
+        equations: &'a StickEquations,
+        right: &'a mut [BySolution; STICK],
+        terms: &'a mut [BySolution; ROOT + 1],
+    ) -> bool {
+        let StickEquations { convection, rate, size, upstream } = *equations;
+        let (mut pivot, mut over) = (convection, [0.0; STICK]);
+        over[1] = 1.0 / pivot;
+        for n in 2..STICK {
+            let (order, factor) = (n as f64, rate * over[n - 1]);
+            let (above, below) = right.split_at_mut(n);
+            for j in 0..below[0].len() {
+                below[0][j] = order * below[0][j] - factor * above[n - 1][j];
+            }
+            pivot = order * convection + rate * factor;
+            over[n] = 1.0 / pivot;
         }
+        let mut last = BySolution::default();
+        for n in (1..STICK).rev() {
+            for j in 0..last.len() {
+                last[j] = over[n] * (right[n][j] + rate * last[j]);
+            }
+            terms[n - 1] = last;
+        }
+        // What is left: the equation of order 0, and the root in that of order 1.
+        let (by_first, of_root) = (rate * size, 2.0 * rate * upstream);
+        let by_root = convection * upstream + 2.0 * by_first - by_first * of_root * last[OF_ROOT];
+        let (mut root, mut finite) = (BySolution::default(), true);
+        for j in 0..root.len() {
+            root[j] = (right[0][j] - by_first * last[j]) / by_root;
+        }
+        for j in 0..OF_ROOT {
+            finite &= root[j].is_finite();
+        }
+        for terms in &mut terms[..SHEAR] {
+            let by = of_root * terms[OF_ROOT];
+            for j in 0..root.len() {
+                terms[j] -= by * root[j];
+            }
+        }
+        terms[ROOT] = root;
+        finite
+    }
+}
+
+vectorised! {
+    /// Moments of terms by power, given those of single ones.
+    fn moments_of<'a, S>(
+        _simd,
+        of_terms: &'a [ByPowers; POINTS + 1],
+        terms: &'a [BySolution; ROOT + 1],
+    ) -> [BySolution; POINTS] {
+        let mut sums = [BySolution::default(); POINTS];
+        for (power, sums) in sums.iter_mut().enumerate() {
+            // Terms of higher numbers have no such moments.
+            for k in 0..=power {
+                for j in 0..sums.len() {
+                    sums[j] += of_terms[k][power] * terms[k][j];
+                }
+            }
+            for j in 0..sums.len() {
+                sums[j] += of_terms[POINTS][power] * terms[ROOT][j];
+            }
+        }
+        sums
     }
 }

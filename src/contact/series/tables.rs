@@ -1,6 +1,6 @@
 //! Constants of the series: places on a stretch `|t| < 1` and the values of all terms there.
 
-use super::chebyshev::{TERMS, cauchy_terms, logarithm_terms};
+use super::chebyshev::TERMS;
 use std::f64::consts::PI;
 
 /// Terms of the pressure.
@@ -32,10 +32,8 @@ pub struct Tables {
     pub closed_terms: [[f64; SMOOTH]; SMOOTH],
     /// Zeros of `T_{SHEAR+1}`, where the surfaces stick; the last one fills the room.
     pub stick: [f64; STICK_ROOM],
-    /// `T_{k+1}` and `I_k` there, by k.
-    pub stick_cauchy: [[f64; STICK_ROOM]; SHEAR],
-    /// See [`Self::stick_cauchy`].
-    pub stick_logarithm: [[f64; STICK_ROOM]; SHEAR],
+    /// Weights of values there in the coefficients of `T_n`, by place and n.
+    pub stick_terms: [[f64; STICK_ROOM]; STICK],
     /// Places of the rule of Gauss and Chebyshev (second kind).
     pub places: [f64; QUADRATURE],
     /// Its weights for whole functions that rise like a root at both ends.
@@ -52,9 +50,9 @@ impl Tables {
         let zeros = |n: usize, i: usize| libm::cos((i as f64 + 0.5) * PI / n as f64);
         let closed: [f64; SMOOTH] = std::array::from_fn(|i| zeros(SMOOTH, i));
         let stick: [f64; STICK_ROOM] = std::array::from_fn(|i| zeros(STICK, i.min(STICK - 1)));
-        let by_term = |of: fn(f64, usize) -> [f64; TERMS]| {
-            let at_places = stick.map(|t| of(t, SHEAR));
-            std::array::from_fn(|k| at_places.map(|terms| terms[k]))
+        let weight = |i: usize, n: usize| {
+            let mean = if n == 0 { 1.0 } else { 2.0 } / STICK as f64;
+            if n < STICK { mean * libm::cos(n as f64 * (i as f64 + 0.5) * PI / STICK as f64) } else { 0.0 }
         };
         let angle = |q: usize| (q + 1) as f64 * PI / (QUADRATURE + 1) as f64;
         let weights = std::array::from_fn(|q| PI / (QUADRATURE + 1) as f64 * libm::sin(angle(q)));
@@ -62,8 +60,7 @@ impl Tables {
             closed,
             closed_terms: std::array::from_fn(|n| closed.map(|t| libm::cos(n as f64 * libm::acos(t)))),
             stick,
-            stick_cauchy: by_term(cauchy_terms),
-            stick_logarithm: by_term(logarithm_terms),
+            stick_terms: std::array::from_fn(|i| std::array::from_fn(|n| weight(i, n))),
             places: std::array::from_fn(|q| libm::cos(angle(q))),
             weights,
             moments: std::array::from_fn(|k| {

@@ -5,11 +5,11 @@
 
 use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
-use super::stretch::Stretch;
-use super::surface::AtPoints;
+use super::stretch::{BySolution, Stretch};
 use crate::axes::Axis;
 use crate::contact::error::ContactError;
-use crate::contact::flexibility::{ByMoments, ByPowers, polynomial};
+use crate::contact::flexibility::{ByMoments, ByPowers};
+use crate::linalg::vectorised::vectorised;
 use crate::linalg::{DenseSystem, POINTS};
 
 impl SeriesContact<'_> {
@@ -55,27 +55,29 @@ impl SeriesContact<'_> {
         let mut system = std::mem::take(&mut self.system);
         system.reset(count + axes.clone().count());
         self.write_motions(stretches, &mut system);
+        let by_bodies = self.slips_by_bodies();
         for (column, (by, stretch)) in sticking(stretches).enumerate() {
-            let ([known, moments @ ..], [force, forces @ ..]) = (stretch.moments(), stretch.forces());
+            let (moments, forces) = (stretch.moments(), stretch.forces());
             for (row, (at, _)) in sticking(stretches).enumerate() {
-                let between = self.slips_between([at, by]);
-                let (known, slips) =
-                    (polynomial(&between, &known), moments.map(|moments| polynomial(&between, &moments)));
-                for p in 0..POINTS {
-                    // The known tractions stand on the right, the others take away from them.
+                let slips = slips_of(&self.slips_through(&by_bodies, [at, by]), &moments);
+                // The known tractions stand on the right, the others take away from them.
+                for (p, [known, slips @ ..]) in slips.iter().enumerate() {
                     let (coefficients, side) = system.row(POINTS * row + p);
-                    *side += known[p];
+                    *side += known;
                     let coefficients = coefficients[POINTS * column..][..POINTS].iter_mut();
-                    coefficients.zip(&slips).for_each(|(value, slip)| *value += slip[p]);
+                    coefficients.zip(slips).for_each(|(value, slip)| *value += slip);
                 }
             }
             for (row, axis) in axes.clone().enumerate() {
-                let (coefficients, side) = system.row(count + row);
-                *side += self.pull(axis, by, [force, 0.0], &known);
+                let Pull { force, moments: by_moments } = self.pull_along(axis, by);
+                let mut pulls = forces.map(|along| force * along);
+                for (by, moments) in by_moments.iter().zip(&moments) {
+                    pulls.iter_mut().zip(moments).for_each(|(pull, moment)| *pull -= by * moment);
+                }
+                let ([known, pulls @ ..], (coefficients, side)) = (pulls, system.row(count + row));
+                *side += known;
                 let coefficients = coefficients[POINTS * column..][..POINTS].iter_mut();
-                coefficients.zip(moments.iter().zip(forces)).for_each(|(value, (moments, force))| {
-                    *value += self.pull(axis, by, [force, 0.0], moments);
-                });
+                coefficients.zip(pulls).for_each(|(value, pull)| *value += pull);
             }
         }
         let mut slips = [ByPowers::default(); MOST_LINES];
@@ -116,33 +118,48 @@ impl SeriesContact<'_> {
     /// Part of a shear of a line in the balance of a motion \[N/m, N], given its forces along and across [N/m] and its
     /// moments along with the powers of the places.
     pub fn pull(&self, axis: Axis, line: usize, [along, across]: [f64; 2], moments: &ByPowers) -> f64 {
-        let (problem, ports) = (self.lines[line].problem.line, self.at_points(line, moments));
-        let momentum = (0..POINTS).map(|l| self.bodies().momentum[(axis.number(), 2 * l)] * ports[l]).sum::<f64>();
-        let sliding = self.lines[0].problem.line.sliding(axis);
-        match axis {
-            Axis::Lateral => problem.share * across,
-            Axis::Travel | Axis::Height | Axis::Rotation => sliding * problem.share * along - momentum,
+        if axis == Axis::Lateral {
+            return self.lines[line].problem.line.share * across;
         }
+        let by = self.pull_along(axis, line);
+        by.force * along - by.moments.iter().zip(moments).map(|(by, moment)| by * moment).sum::<f64>()
     }
 
-    /// Moments of a shear with the polynomials of the bodies, per metre of their width, from those with the powers of the
-    /// places on a line [N/m].
-    fn at_points(&self, line: usize, moments: &ByPowers) -> AtPoints {
-        let (line, points) = (&self.lines[line], &self.lines[line].constants.points);
-        let (mut scale, ratio) = (line.problem.line.share, line.half_length / points.reach);
-        let of_bodies = moments.map(|moment| {
-            let scaled = scale * moment;
-            scale *= ratio;
-            scaled
-        });
-        points.moments(&of_bodies)
+    /// Part of a shear along of a line in the balance of a motion.
+    fn pull_along(&self, axis: Axis, line: usize) -> Pull {
+        let (line, momentum) = (&self.lines[line], &self.bodies().momentum);
+        let (share, sliding) = (line.problem.line.share, self.lines[0].problem.line.sliding(axis));
+        if axis == Axis::Lateral {
+            return Pull::default();
+        }
+        let at_points = std::array::from_fn(|l| share * momentum[(axis.number(), 2 * l)]);
+        let moments = line.constants.points.polynomial(&at_points).by_powers(line.half_length);
+        Pull { force: sliding * share, moments }
     }
 
-    /// Slips of a line by unit moments of the shear of another one, given what those do to the bodies.
-    pub fn slips_between(&self, [at, by]: [usize; 2]) -> ByMoments {
-        let (line, other, [wheel, rail]) = (&self.lines[at], &self.lines[by], &self.by_powers);
+    /// Slips of a line by what unit moments of shear with the powers of `x/reach`, per metre of the bodies' width, do to the
+    /// bodies, as polynomials of `x/reach` [m/s/(N/m)].
+    fn slips_by_bodies(&self) -> ByMoments {
+        let (line, [wheel, rail]) = (&self.lines[0], &self.by_powers);
         let (v, rim, a0, reach) =
             (line.rigid.travel, line.rim_velocity(), line.problem.line.time.a0, line.constants.points.reach);
+        std::array::from_fn(|n| {
+            let slope = |of: &ByPowers, p: usize| (p + 1) as f64 / reach * of.get(p + 1).copied().unwrap_or(0.0);
+            std::array::from_fn(|p| {
+                a0 * (wheel[n][p] - rail[n][p]) + v * slope(&rail[n], p) - rim * slope(&wheel[n], p)
+            })
+        })
+    }
+
+    /// Slips of a line by unit moments of the shear of another one.
+    pub fn slips_between(&self, lines: [usize; 2]) -> ByMoments {
+        self.slips_through(&self.slips_by_bodies(), lines)
+    }
+
+    /// [`Self::slips_between`], given [`Self::slips_by_bodies`].
+    fn slips_through(&self, by_bodies: &ByMoments, [at, by]: [usize; 2]) -> ByMoments {
+        let (line, other) = (&self.lines[at], &self.lines[by]);
+        let reach = line.constants.points.reach;
         let powers = |ratio: f64, first: f64| {
             let mut power = first;
             ByPowers::default().map(|_| {
@@ -152,19 +169,38 @@ impl SeriesContact<'_> {
         };
         let here = powers(line.half_length / reach, 1.0);
         let there = powers(other.half_length / reach, other.problem.line.share);
-        let mut slips = [ByPowers::default(); POINTS];
-        for (n, slip) in slips.iter_mut().enumerate() {
-            let slope = |of: &ByPowers, p: usize| (p + 1) as f64 / reach * of.get(p + 1).copied().unwrap_or(0.0);
-            for (p, slip) in slip.iter_mut().enumerate() {
-                let rate = a0 * (wheel[n][p] - rail[n][p]);
-                *slip = there[n] * here[p] * (rate + v * slope(&rail[n], p) - rim * slope(&wheel[n], p));
-            }
+        let mut slips = *by_bodies;
+        for (slip, there) in slips.iter_mut().zip(&there) {
+            slip.iter_mut().zip(&here).for_each(|(slip, here)| *slip *= there * here);
         }
         let Some(patch) = line.problem.line.patch else { return slips };
         let (between, [rate, strain]) = (patch.flexibility.between(patch.line, by), line.slip_of_field());
         for (n, slip) in slips.iter_mut().enumerate() {
             for (p, slip) in slip.iter_mut().enumerate() {
                 *slip += rate * between.displacement[n][p] + strain * between.strain[n][p];
+            }
+        }
+        slips
+    }
+}
+
+/// Part of the shear of a line along in the balance of a motion: by its force \[1, m], less those by its moments with the
+/// powers of the place over the half-length of the line \[1, m].
+#[derive(Default)]
+struct Pull {
+    force: f64,
+    moments: ByPowers,
+}
+
+vectorised! {
+    /// Slips by power that belong to moments of several solutions.
+    fn slips_of<'a, S>(_simd, by_moments: &'a ByMoments, moments: &'a [BySolution; POINTS]) -> [BySolution; POINTS] {
+        let mut slips = [BySolution::default(); POINTS];
+        for (p, slips) in slips.iter_mut().enumerate() {
+            for n in 0..POINTS {
+                for j in 0..slips.len() {
+                    slips[j] += by_moments[n][p] * moments[n][j];
+                }
             }
         }
         slips
