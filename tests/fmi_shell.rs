@@ -158,7 +158,13 @@ fn all_calls() -> Depths {
     std::fs::write(&profile, format!("position,height\n{samples}")).unwrap();
     let rows = text_of("s1002_uic60_3mm.csv").replace('\n', ";");
     type Case<'a> = (&'a str, [f64; 2], &'a dyn Fn(&Slave));
-    let cases: [Case; 4] = [
+    let cases: [Case; 5] = [
+        ("sideways on fixed nodes", [1e-3, 4.0], &|slave| {
+            assert_eq!(slave.set_string("preset", "railway_ellipse"), fmi2OK);
+            slave.coarsen();
+            slave.set_boolean("contact.lateral", true);
+            slave.set_string("rail.profile", &profile);
+        }),
         ("locked and melting", [5e-3, 20.0], &|slave| {
             slave.set_string("preset", "railway_dry");
             slave.coarsen();

@@ -171,6 +171,9 @@ vectorised! {
     fn add_columns<'a, S>(simd, factor: f64, columns: &'a [f64], apart: usize, x: &'a [f64], out: &'a mut [f64]) {
         let lanes = S::F64_LANES;
         let (mut at, end) = (0, out.len());
+        if columns.len() < end {
+            return;
+        }
         // A part of the target stays in registers for all columns.
         while end - at >= 8 * lanes {
             add_columns_to::<S, 8>(simd, factor, &columns[at..], apart, x, &mut out[at..]);

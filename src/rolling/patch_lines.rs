@@ -47,7 +47,7 @@ pub enum PatchLines {
     Sized {
         /// The patch.
         patch: PatchLayout,
-        /// The same on fixed nodes, where soft steel makes patches longer than those of the layout; `None`: it does not.
+        /// Patch on fixed nodes, where soft steel makes it longer than that of the layout; `None`: it does not.
         roomy: Option<PatchLayout>,
     },
 }

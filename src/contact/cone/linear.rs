@@ -22,7 +22,7 @@ struct LinearLine<const N: usize> {
     /// Factors of the equations of the unknowns.
     system: DenseSystem,
     /// Shear that a unit of each coefficient of the polynomials of the slip takes away \[Pa], and its moments.
-    responses: [AlongAcross<N>; SLIPS],
+    responses: Vec<AlongAcross<N>>,
     moments: [[f64; SLIPS]; SLIPS],
 }
 
@@ -74,14 +74,13 @@ impl<const N: usize> LinearLine<N> {
         if !system.factorise() {
             return None;
         }
-        let mut line =
-            Self { points, unknowns, system, responses: [[[0.0; N]; 2]; SLIPS], moments: [[0.0; SLIPS]; SLIPS] };
-        let mut values = [[[0.0; SLIPS]; 2]; N];
-        let values = &mut values.as_flattened_mut()[..line.unknowns.len()];
+        let responses = vec![[[0.0; N]; 2]; SLIPS];
+        let mut line = Self { points, unknowns, system, responses, moments: [[0.0; SLIPS]; SLIPS] };
+        let mut values = vec![[0.0; SLIPS]; line.unknowns.len()];
         for (value, Unknown { point, along, .. }) in values.iter_mut().zip(&line.unknowns) {
             *value = std::array::from_fn(|k| along[k / POINTS] * rows.powers[k % POINTS][*point]);
         }
-        if !line.system.solve_with_all(values) {
+        if !line.system.solve_with_all(&mut values) {
             return None;
         }
         for (value, Unknown { point, along, .. }) in values.iter().zip(&line.unknowns) {
@@ -89,7 +88,7 @@ impl<const N: usize> LinearLine<N> {
                 response.iter_mut().zip(along).for_each(|(shear, along)| shear[*point] += along * value);
             }
         }
-        line.moments = line.responses.map(|response| problem.moments(&response));
+        line.moments = std::array::from_fn(|k| problem.moments(&line.responses[k]));
         Some(line)
     }
 

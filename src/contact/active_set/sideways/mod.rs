@@ -31,7 +31,8 @@ const STANDS: f64 = 1e-9;
 
 impl ActiveSet<'_> {
     /// Iterates from the states and forces of the start to the solution of a contact with lateral tractions; returns the times
-    /// that the law of friction was made linear.
+    /// that the law of friction was made linear. Stacks of contacts in one direction have no room for its numbers.
+    #[inline(never)]
     pub fn run_across(mut self) -> Result<usize, ContactError> {
         let spin = self.problem.spin;
         for line in &mut self.lines {
@@ -63,6 +64,7 @@ impl ActiveSet<'_> {
     }
 
     /// Finds pressure and shear by turns; false: more than N nodes of a line touch.
+    #[inline(never)]
     fn turn_about<const N: usize>(&mut self, turns: &mut Turns) -> Result<bool, ContactError> {
         let (mut prepared, mut last) = (None, f64::INFINITY);
         while turns.made < MOST {
