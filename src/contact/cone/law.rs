@@ -26,7 +26,7 @@ pub struct SlipRows<const N: usize> {
     /// Slips without any shear [m/s].
     pub known: AlongAcross<N>,
     /// Powers of the place over the half-length of the line.
-    pub powers: [[f64; N]; POINTS],
+    pub powers: Vec<[f64; N]>,
 }
 
 /// The tangential problem of one line.
@@ -39,7 +39,7 @@ pub struct ConeProblem<const N: usize> {
     /// Change of the slip of every point by its shear [m/s/Pa], the larger one of both directions.
     pub least: [f64; N],
     /// Moments of the shear of every point with the powers of the places \[m].
-    moments: [[f64; N]; POINTS],
+    moments: Vec<[f64; N]>,
     /// Friction that points bear, and that at the peak of the pressure \[Pa].
     bears: [f64; N],
     most: f64,
@@ -122,7 +122,7 @@ impl<const N: usize> ConeProblem<N> {
         let least = |i: usize| rows.by_shear.iter().map(|by| by[i][i].abs()).fold(f64::MIN_POSITIVE, f64::max);
         let least = std::array::from_fn(least);
         let powers = in_place.as_ref().map_or(&rows.powers, |rows| &rows.powers);
-        let moments = powers.map(|power| std::array::from_fn(|i| weights[i] * power[i]));
+        let moments = powers.iter().map(|power| std::array::from_fn(|i| weights[i] * power[i])).collect();
         Self { rows, in_place, least, moments, bears, most }
     }
 

@@ -31,7 +31,7 @@ impl SeriesLine<'_> {
             by_shear: [self.problem.line.kernel.tangential, self.problem.line.kernel.lateral]
                 .map(|kernel| self.slips_by_points(tables, kernel).to_vec()),
             known: known.map(|known| std::array::from_fn(|i| known[set * COUNT + i])),
-            powers: self.powers_at(&places[set]),
+            powers: self.powers_at(&places[set]).to_vec(),
         };
         let in_place = rows(1, &constants.in_place);
         let rows = rows(0, &constants.of_points).mean(&in_place, 1.0 - self.way_upstream());

@@ -55,8 +55,11 @@ pub fn take<const N: usize>(
 
 /// Slips of the closed `nodes` by their own shear.
 fn slip_rows<const N: usize>(line: &ContactLine, nodes: &[usize]) -> SlipRows<N> {
-    let mut rows =
-        SlipRows { by_shear: [vec![[0.0; N]; N], vec![[0.0; N]; N]], known: [[0.0; N]; 2], powers: [[0.0; N]; POINTS] };
+    let mut rows = SlipRows {
+        by_shear: [vec![[0.0; N]; N], vec![[0.0; N]; N]],
+        known: [[0.0; N]; 2],
+        powers: vec![[0.0; N]; POINTS],
+    };
     let (Some(first), Some(last), Some(patch)) = (nodes.first(), nodes.last(), line.problem.patch) else { return rows };
     let window = line.grid.port(*first)..line.grid.port(*last) + 2;
     let forces = &mut vec![0.0; line.grid.ports()];
