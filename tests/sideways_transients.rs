@@ -129,12 +129,11 @@ impl Count {
         }
     }
 
-    /// In steps much shorter than the patch the power of friction, taken between the places where friction acts, may be a
-    /// little less than nothing.
+    /// Friction gives nothing back; of its power thousandths, those of pressure on the inclined surface, have any sign.
     fn check(&self, what: &str, most: f64) {
         let mean = self.newton as f64 / self.steps as f64;
         println!("{what}: {self:?}, {mean:.2} a step");
-        assert!(self.failures == 0 && self.beyond < 1e-9 && self.least_power > -0.03);
+        assert!(self.failures == 0 && self.beyond < 1e-9 && self.least_power > -2e-3);
         assert!(self.most as f64 + OTHER_COST < most * (mean + OTHER_COST));
     }
 }

@@ -105,16 +105,11 @@ fn layered_slips(line: &SeriesLine, forces: [&[f64; POWER]; 2]) -> [[f64; POWER]
     if line.problem.line.layer == 0.0 {
         return slips;
     }
-    let work = |slips: &[[f64; POWER]; 2]| -> f64 {
-        forces.iter().zip(slips).flat_map(|(f, s)| f.iter().zip(s)).map(|(force, slip)| force * slip).sum()
-    };
     let places = line.slipping().0;
     let carried = [&line.tractions.stick, &line.tractions.lateral].map(|shear| line.carried(shear, &places));
-    let all = work(&slips) - work(&carried);
-    for (q, _) in places.iter().enumerate().filter(|(_, x)| line.sticks_at(**x)) {
-        (slips[0][q], slips[1][q]) = (0.0, 0.0);
-    }
-    let seen = work(&slips);
+    let all = work(forces, &slips) - work(forces, &carried);
+    rest_where_points_stick(line, &mut slips);
+    let seen = work(forces, &slips);
     if seen * all > 0.0 {
         slips.as_flattened_mut().iter_mut().for_each(|slip| *slip *= all / seen);
         return slips;
@@ -126,6 +121,31 @@ fn layered_slips(line: &SeriesLine, forces: [&[f64; POWER]; 2]) -> [[f64; POWER]
         slips[last] = all * force[last] / square;
     }
     slips
+}
+
+/// Slips along and across [m/s] of a line with forces across, such that friction on the forces at the places gives nothing
+/// back. Points that stick leave a little slip between them, whose work has any sign; in steps much shorter than the patch,
+/// in which most points stick, it may be more than that of those that slip.
+fn frictional_slips(line: &SeriesLine, forces: [&[f64; POWER]; 2]) -> [[f64; POWER]; 2] {
+    let mut slips = layered_slips(line, forces);
+    let heats = |slips: &[[f64; POWER]; 2]| work(forces, slips) <= 0.0;
+    if heats(&slips) {
+        return slips;
+    }
+    rest_where_points_stick(line, &mut slips);
+    if heats(&slips) { slips } else { [[0.0; POWER]; 2] }
+}
+
+/// Work of forces along and across at the places on slips there [W/m].
+fn work(forces: [&[f64; POWER]; 2], slips: &[[f64; POWER]; 2]) -> f64 {
+    forces.iter().zip(slips).flat_map(|(f, s)| f.iter().zip(s)).map(|(force, slip)| force * slip).sum()
+}
+
+/// Takes away the slips at places next to points that stick.
+fn rest_where_points_stick(line: &SeriesLine, slips: &mut [[f64; POWER]; 2]) {
+    for (q, _) in line.slipping().0.iter().enumerate().filter(|(_, x)| line.sticks_at(**x)) {
+        (slips[0][q], slips[1][q]) = (0.0, 0.0);
+    }
 }
 
 /// Moves the histories on and takes the power: that of friction at the end of the step [W/m] and its energy in the step
@@ -167,7 +187,7 @@ fn remember(
         return history.friction.advance(time, slope_power(line), |q| [force[q], line.slips[q]]);
     }
     let (_, across) = line.slipping_across();
-    let slips = layered_slips(line, [force, &across]);
+    let slips = frictional_slips(line, [force, &across]);
     history.friction.reach(2 * POWER);
     history.friction.advance(time, slope_power(line), |q| match q.checked_sub(POWER) {
         None => [force[q], slips[0][q]],
