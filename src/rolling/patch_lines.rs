@@ -46,9 +46,9 @@ pub enum PatchLines {
     /// Lines of a patch whose size follows from its load.
     Sized {
         /// The patch.
-        patch: PatchLayout,
+        patch: Box<PatchLayout>,
         /// Patch on fixed nodes, where soft steel makes it longer than that of the layout; `None`: it does not.
-        roomy: Option<PatchLayout>,
+        roomy: Option<Box<PatchLayout>>,
     },
 }
 
@@ -85,8 +85,8 @@ impl PatchLines {
         let lateral = |patch: PatchLayout| if config.contact.lateral { patch.sideways() } else { patch };
         if smooth {
             let roomy = config.contact.lateral && config.physics.yielding;
-            let roomy = roomy.then(|| lateral(patch.clone().with_room()));
-            return Ok(Self::Sized { patch: lateral(patch), roomy });
+            let roomy = roomy.then(|| Box::new(lateral(patch.clone().with_room())));
+            return Ok(Self::Sized { patch: Box::new(lateral(patch)), roomy });
         }
         let patch = lateral(patch.with_room());
         Ok(Self::Constant {

@@ -296,7 +296,7 @@ mod tests {
         let rows = SlipRows {
             by_shear: [by_shear.clone(), by_shear],
             known: [[along; N], std::array::from_fn(|i| across + spin * place::<N>(i))],
-            powers: std::array::from_fn(|k| std::array::from_fn(|i| place::<N>(i).powi(k as i32))),
+            powers: (0..POINTS).map(|k| std::array::from_fn(|i| place::<N>(i).powi(k as i32))).collect(),
         };
         let most = pressure.iter().fold(0.0_f64, |most, p| most.max(*p));
         (ConeProblem::new(rows, None, &[spacing; N], pressure, most), pressure)

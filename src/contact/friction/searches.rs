@@ -19,7 +19,7 @@ pub(in crate::contact) struct CoefficientSearches {
 
 /// A search on all lines together, or one on each.
 enum CoefficientMethod {
-    Together(CoefficientsTogether),
+    Together(Box<CoefficientsTogether>),
     Apart(Vec<CoefficientSearch>),
 }
 
@@ -36,7 +36,7 @@ pub(in crate::contact) enum Tried {
 impl CoefficientSearches {
     /// Searches between the bounds of the laws, with the slopes of earlier ones \[1].
     pub fn new(bounds: Vec<[f64; 2]>, slopes: impl Iterator<Item = f64>) -> Self {
-        let method = CoefficientMethod::Together(CoefficientsTogether::new(bounds.clone(), slopes));
+        let method = CoefficientMethod::Together(Box::new(CoefficientsTogether::new(bounds.clone(), slopes)));
         Self { bounds, method, tried: 0 }
     }
 

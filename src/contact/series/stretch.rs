@@ -226,9 +226,7 @@ vectorised! {
         for j in 0..root.len() {
             root[j] = (right[0][j] - by_first * last[j]) / by_root;
         }
-        for j in 0..OF_ROOT {
-            finite &= root[j].is_finite();
-        }
+        finite &= root[..OF_ROOT].iter().all(|value| value.is_finite());
         for terms in &mut terms[..SHEAR] {
             let by = of_root * terms[OF_ROOT];
             for j in 0..root.len() {
