@@ -5,8 +5,7 @@ use crate::record::{self, Column, Record};
 use crate::script::Change;
 use crate::settings::{STEP_MS, Settings};
 use std::collections::VecDeque;
-use wheelrail::contact::ContactError;
-use wheelrail::simulation::{BasisStore, Inputs, Model, Outputs, Simulation, StepError, Translation, advice};
+use wheelrail::simulation::{BasisStore, Inputs, Model, Outputs, Simulation, Translation, advice};
 
 /// Torque of a brake that holds whatever comes \[N m].
 const LOCKING: f64 = 100e3;
@@ -94,21 +93,10 @@ impl Run {
         }
         self.come_under()?;
         self.inputs.drive.lateral_velocity = 1e-3 * self.settings.angle * self.simulation.outputs().wheel_velocity;
-        self.simulation.advance(&self.inputs, STEP).map_err(|error| self.told(&error))?;
+        self.simulation.advance(&self.inputs, STEP).map_err(|error| error.to_string())?;
         self.steps += 1;
         self.note();
         Ok(())
-    }
-
-    /// The message of a step that was not found: a wheel at an angle of attack is computed on smooth, elastic steel only.
-    fn told(&self, error: &StepError) -> String {
-        match error {
-            StepError::Contact { source: ContactError::Sideways { reason }, .. } => format!(
-                "{reason}, and that is beyond the model while the wheel stands at an angle to the rail. Release the wheel before \
-                 its steel melts, or restart with the angle 0"
-            ),
-            _ => error.to_string(),
-        }
     }
 
     fn apply(&mut self, change: Change) {

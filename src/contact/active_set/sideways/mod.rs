@@ -54,7 +54,7 @@ impl ActiveSet<'_> {
             || self.turn_about::<256>(&mut turns)?;
         if !ended {
             return Err(ContactError::Sideways {
-                reason: "more than 256 nodes of a line touch (mesh.elements_per_half_width)",
+                reason: "more than 256 nodes of a line touch (mesh.grid_elements_per_half_width)",
             });
         }
         self.lines.iter_mut().for_each(|line| line.traction.iterations = turns.made);
