@@ -29,14 +29,14 @@ pub enum ContactError {
         /// Property of the contact that it cannot describe.
         reason: &'static str,
     },
-    /// A contact that takes no lateral creepage and spin.
+    /// A contact with lateral creepage and spin on too many nodes.
     #[error(
-        "{reason}, and such a contact takes no lateral creepage and spin: set contact.lateral to false, or avoid \
-         this case"
+        "more than {most} nodes of a line touch, which is the most with contact.lateral: lower \
+         mesh.grid_elements_per_half_width, or set contact.lateral to false"
     )]
     Sideways {
-        /// Obstacle, with the parameter that puts it there.
-        reason: &'static str,
+        /// Most nodes of a line that may touch.
+        most: usize,
     },
     /// The solver takes one contact line.
     #[error("this contact solver takes one contact line, not {lines}")]

@@ -20,6 +20,8 @@ use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::{exchange, finish, zone};
 use friction::{Prepared, TOLERANCE};
 
+/// Nodes of a line at most that touch.
+const MOST_NODES: usize = 256;
 /// Turns at most.
 const MOST: usize = 120;
 /// Extent of the search for the states of the normal problem in a turn.
@@ -51,11 +53,9 @@ impl ActiveSet<'_> {
         let ended = self.turn_about::<32>(&mut turns)?
             || self.turn_about::<64>(&mut turns)?
             || self.turn_about::<128>(&mut turns)?
-            || self.turn_about::<256>(&mut turns)?;
+            || self.turn_about::<MOST_NODES>(&mut turns)?;
         if !ended {
-            return Err(ContactError::Sideways {
-                reason: "more than 256 nodes of a line touch (mesh.grid_elements_per_half_width)",
-            });
+            return Err(ContactError::Sideways { most: MOST_NODES });
         }
         self.lines.iter_mut().for_each(|line| line.traction.iterations = turns.made);
         self.lines.iter().try_for_each(zone::check)?;
