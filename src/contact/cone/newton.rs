@@ -250,7 +250,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
 
     /// Steady state: forces along and across, moment of these, and the lateral velocity that was sought.
-    struct Rolling<const N: usize> {
+    struct SteadyRolling<const N: usize> {
         shear: AlongAcross<N>,
         pressure: [f64; N],
         force: [f64; 2],
@@ -304,7 +304,7 @@ mod tests {
 
     /// Steady rolling with creepages along and across and a spin; with a lateral force on the body the creepage across is
     /// that which holds it.
-    fn roll<const N: usize>(slip: [f64; 3], held: Option<f64>) -> Rolling<N> {
+    fn roll<const N: usize>(slip: [f64; 3], held: Option<f64>) -> SteadyRolling<N> {
         let (problem, pressure) = line(slip);
         let across: [f64; SLIPS] = std::array::from_fn(|k| if k == POINTS { 1.0 } else { 0.0 });
         let motion = |force: f64| FreeMotion {
@@ -328,7 +328,7 @@ mod tests {
         newton.run(1e-12).unwrap();
         let (shear, lateral) = (newton.shears[0], newton.rigid.lateral);
         let moments = problems[0].moments(&shear).map(|moment| moment / FRAC_PI_2);
-        Rolling { shear, pressure, force: [moments[0], moments[POINTS]], moment: moments[POINTS + 1], lateral }
+        SteadyRolling { shear, pressure, force: [moments[0], moments[POINTS]], moment: moments[POINTS + 1], lateral }
     }
 
     #[test]
@@ -377,7 +377,7 @@ mod tests {
         }
     }
 
-    impl<const N: usize> Rolling<N> {
+    impl<const N: usize> SteadyRolling<N> {
         /// Force across and its moment.
         fn into_moments(self) -> [f64; 2] {
             [self.force[1], self.moment]
