@@ -93,7 +93,7 @@ fn steady_forces_on_nodes_under_creepage_and_spin_are_those_of_contact() {
                 (HalfSpaces::sideways_on_nodes(aspect, 7, nodes), if aspect < 1.0 { 0.021 } else { 0.013 });
             let found = missed(&spaces, set, &format!("{aspect:.1} {nodes} nodes"), |kind| match kind {
                 "xi" => [0.006, 1e-3, 1e-3],
-                "eta" => [1e-3, 0.010, 0.006],
+                "eta" => [1e-3, if aspect > 1.5 { 0.012 } else { 0.007 }, 0.006],
                 "phi" => [0.001, spin, spin],
                 _ => [0.025, 0.025, 0.018],
             });
@@ -173,28 +173,32 @@ fn nothing_slips_and_warms_where_it_sticks() {
 }
 
 /// Kalker's coefficients for ν = 0.3 of CONTACT on 61 × 41 elements, secants up to 1 % below the slope at rest: C₁₁, C₂₂, C₂₃
-/// and C₃₃.
+/// and C₃₃. The last one is a matter of the lines: with nine moments in the place of five it is 3.2, 2.5 and −2.0 % off on
+/// seven lines, and 2.1, 1.3 and −2.5 % on nine.
 #[test]
 fn creep_coefficients_of_small_creepages_and_spins_are_those_of_kalker() {
     for (aspect, kalker) in KALKER {
-        let spaces = HalfSpaces::sideways(aspect, 9);
-        let wheelrail::patch::Ellipse { a, b, .. } = spaces.hertz.under(LOAD);
-        let (rigidity, c) = (half_spaces::SHEAR_MODULUS * a * b, (a * b).sqrt());
-        let creepage = 0.02 * FRICTION * LOAD / (rigidity * kalker[0]);
-        let most = FRICTION * LOAD;
-        let found = [[-creepage, 0.0, 0.0], [0.0, -creepage, 0.0], [0.0, 0.0, 0.02]]
-            .map(|slip| forces(&spaces, &steady(&spaces, slip)).map(|force| most * force / rigidity));
-        let spin = 0.02 * c;
-        let coefficients = [
-            found[0][0] / creepage,
-            found[1][1] / creepage,
-            -found[2][1] / spin,
-            -found[2][2] * MEAN_AXIS / (spin * c),
-        ];
-        let errors: Vec<_> = coefficients.iter().zip(kalker).map(|(found, table)| found / table - 1.0).collect();
-        println!("{aspect}: {coefficients:.4?} {errors:+.4?}");
-        assert!(errors.iter().all(|error| error.abs() < 0.08), "{aspect}");
+        for lines in [5, 7, 9, 13] {
+            let spaces = HalfSpaces::sideways(aspect, lines);
+            let found = creep_coefficients(&spaces, kalker[0]);
+            let errors: [f64; 4] = std::array::from_fn(|k| found[k] / kalker[k] - 1.0);
+            println!("{aspect} {lines}: {errors:+.4?}");
+            let most = if lines == 7 { [0.02, 0.02, 0.02, 0.032] } else { [0.02, 0.02, 0.02, 0.06] };
+            assert!(errors.iter().zip(most).all(|(error, most)| error.abs() < most), "{aspect} {lines}");
+        }
     }
+}
+
+/// C₁₁, C₂₂, C₂₃ and C₃₃ of creepages and a spin at about 2 % of friction, given about C₁₁.
+fn creep_coefficients(spaces: &HalfSpaces, first: f64) -> [f64; 4] {
+    let wheelrail::patch::Ellipse { a, b, .. } = spaces.hertz.under(LOAD);
+    let (rigidity, c, most) = (half_spaces::SHEAR_MODULUS * a * b, (a * b).sqrt(), FRICTION * LOAD);
+    let creepage = 0.02 * most / (rigidity * first);
+    let found = [[-creepage, 0.0, 0.0], [0.0, -creepage, 0.0], [0.0, 0.0, 0.02]]
+        .map(|slip| forces(spaces, &steady(spaces, slip)).map(|force| most * force / rigidity));
+    let spin = 0.02 * c;
+    let moment = found[2][2] * MEAN_AXIS / c;
+    [found[0][0] / creepage, found[1][1] / creepage, -found[2][1] / spin, -moment / spin]
 }
 
 /// Half axis along over that across, C₁₁, C₂₂, C₂₃ and C₃₃.

@@ -21,6 +21,7 @@ pub mod layout;
 pub mod limits;
 pub mod line;
 pub mod problem;
+mod projection;
 pub mod series;
 pub mod solver;
 pub mod traction;
