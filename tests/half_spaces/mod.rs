@@ -102,6 +102,17 @@ impl HalfSpaces {
         Self { patch: along.patch.sideways(), ..along }
     }
 
+    /// A circle that takes lateral creepage, of steel as stiff in contact but without Poisson's ratio: it answers along as across.
+    pub fn isotropic(lines: usize) -> Self {
+        let round = Self::new(1.0, 1);
+        let PatchMaterial { half_plane, half_space } = material();
+        let shear_modulus = half_space.shear_modulus / (1.0 - half_space.poissons_ratio);
+        let half_space = HalfSpace { shear_modulus, poissons_ratio: 0.0 };
+        let material = PatchMaterial { half_plane: HalfPlane { coupling: 0.0, ..half_plane }, half_space };
+        let patch = PatchLayout::ellipse(&round.hertz, round.radius, material, lines, WIDTH, LOAD).sideways();
+        Self { patch, ..round }
+    }
+
     /// Rows of a real patch that takes lateral creepage and spin, as lines.
     pub fn of_rows(rows: Vec<PatchRow>, radius: f64, lines: usize) -> Self {
         let shapes = [equivalent_ellipse(&rows).unwrap()];

@@ -1,0 +1,66 @@
+//! Friction that falls with the slip along and across the elliptical patch on lines side by side, on points that move with
+//! the patch and on fixed nodes: against CONTACT along, and across by symmetry.
+
+mod half_spaces;
+
+use half_spaces::{HalfSpaces, LOAD, SPEED, number, numbers, reference};
+use std::f64::consts::{FRAC_PI_2, LN_2};
+use wheelrail::contact::{ContactState, Friction, FrictionLaw, Heating, RigidMotion, SlipDependence, Spin};
+use wheelrail::multistep::TimeDerivative;
+
+/// Law of the reference, and its coefficient at rest \[1].
+fn falling() -> (Friction, f64) {
+    let case = &reference()["falling"];
+    let [kinetic, rest, half] = ["mu_kin", "mu_1", "s_half"].map(|name| number(&case[name]));
+    let slip = SlipDependence::Exponential { remaining: kinetic / (kinetic + rest), decay: LN_2 / half };
+    let law = FrictionLaw { slip, ..FrictionLaw::CONSTANT };
+    (Friction::local(law, kinetic + rest, Heating::default(), 0.0), kinetic + rest)
+}
+
+/// Forces along and across of steady rolling with creepages along and across, over friction at rest.
+fn forces(spaces: &HalfSpaces, [xi, eta]: [f64; 2]) -> [f64; 2] {
+    let (friction, most) = falling();
+    let [translation, rotation] = spaces.held(xi);
+    let motion = [translation, rotation, RigidMotion::held(eta * SPEED, 0.0)];
+    let laws = (TimeDerivative::default(), friction);
+    let lines = spaces.solve_sideways(LOAD, motion, Spin::default(), laws, &spaces.start()).unwrap();
+    let sum = |of: fn(&ContactState) -> f64| spaces.sum(LOAD, &lines, of) / (most * LOAD);
+    [sum(|line| line.traction.resultant.travel), sum(|line| line.traction.resultant.lateral)]
+}
+
+/// Every line has the coefficient of its own mean slip, every element of CONTACT that of its own.
+#[test]
+fn creep_forces_along_are_those_of_contact_where_lines_take_lateral_forces() {
+    let reference = reference();
+    let case = &reference["falling"];
+    for (name, spaces) in
+        [("points", HalfSpaces::sideways(1.0, 7)), ("nodes", HalfSpaces::sideways_on_nodes(1.0, 7, 20))]
+    {
+        let errors: Vec<_> = numbers(&case["xi"])
+            .into_iter()
+            .zip(numbers(&case["Fx"]))
+            .map(|(xi, force)| forces(&spaces, [xi, 0.0])[0] - force)
+            .collect();
+        println!("{name}: {errors:+.4?}");
+        assert!(errors.iter().all(|error| error.abs() < 0.018), "{name}");
+    }
+}
+
+/// On a circle of steel without Poisson's ratio only the lines know which way is along.
+#[test]
+fn without_poissons_ratio_a_creepage_across_a_circle_has_the_force_of_one_along() {
+    let reference = reference();
+    for xi in numbers(&reference["falling"]["xi"]) {
+        for lines in [7, 13] {
+            let spaces = HalfSpaces::isotropic(lines);
+            let along = forces(&spaces, [xi, 0.0])[0];
+            let turned = [0.25, 0.5, 0.75, 1.0].map(|quarter: f64| {
+                let (sin, cos) = (quarter * FRAC_PI_2).sin_cos();
+                let [x, z] = forces(&spaces, [xi * cos, xi * sin]);
+                [x * cos + z * sin - along, z * cos - x * sin]
+            });
+            println!("{xi} {lines}: {along:.4}, {turned:+.4?}");
+            assert!(turned.as_flattened().iter().all(|difference| difference.abs() < 5e-4));
+        }
+    }
+}
