@@ -80,11 +80,11 @@ fn pressure_size_and_forces_change_smoothly_with_the_load() {
 }
 
 /// On fixed nodes, too, where edges move from node to node; the width follows in stretches. Measured: 2.4 medians on a smooth
-/// rail, 1.01 on a rough one; the third patch is left out there, whose force jumps once, by 12 medians or 0.2 N.
+/// rail, 2.5 on a rough one, where a force that jumped by 12 told of weights that jumped as a node closed.
 #[test]
 fn pressure_size_and_forces_on_fixed_nodes_change_by_five_medians_at_most() {
     let rough = |name| (name, "roughness(spectrum = EN_ISO_3095)");
-    for (name, profile) in PATCHES.map(|name| (name, "")).into_iter().chain([rough(PATCHES[0]), rough(PATCHES[1])]) {
+    for (name, profile) in PATCHES.map(|name| (name, "")).into_iter().chain(PATCHES.map(rough)) {
         let mut config = preset(name, 10);
         (config.solver.contact, config.rail.profile) = (ContactMethod::Grid, profile.into());
         for (k, [median, largest]) in changes_with_the_load(config, 1e5).into_iter().take(4).enumerate() {
