@@ -186,9 +186,12 @@ vectorised! {
     /// surfaces waits for.
     fn combine<'a, S>(simd, sum: &'a mut [f64], terms: [Term<'a>; TERMS]) {
         let count = sum.len();
-        let terms = terms.map(|(values, factor)| (S::as_simd_f64s(&values[..count]), factor));
+        let terms: [_; TERMS] = std::array::from_fn(|k| (S::as_simd_f64s(&terms[k].0[..count]), terms[k].1));
         let (sum, sum_rest) = S::as_mut_simd_f64s(sum);
-        let many = terms.map(|((values, _), factor)| (&values[..sum.len()], simd.splat_f64s(factor)));
+        let many: [_; TERMS] = std::array::from_fn(|k| {
+            let ((values, _), factor) = terms[k];
+            (&values[..sum.len()], simd.splat_f64s(factor))
+        });
         for (k, sum) in sum.iter_mut().enumerate() {
             let zero = simd.splat_f64s(0.0);
             *sum = many.iter().fold(zero, |sum, (values, factor)| simd.mul_add_e_f64s(*factor, values[k], sum));
