@@ -31,7 +31,7 @@ pub struct UpwindWeights {
 const SMOOTH: UpwindWeights = UpwindWeights { w0: 1.5, w1: -0.5 };
 const FIRST_CELL: UpwindWeights = UpwindWeights { w0: 1.0, w1: 0.0 };
 /// Power of the place of the edge with which the weights of the inner neighbour change.
-const SUDDENNESS: i32 = 16;
+const SUDDENNESS: i32 = 4;
 
 /// Weights of the inner neighbour of the outermost node, where its force over that of the neighbour is `r`: those of the
 /// first cell, since the second one is outside, which become those of all others as the next node is about to close.
