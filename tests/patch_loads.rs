@@ -38,14 +38,15 @@ fn patches_grow_with_the_third_root_from_a_hundredth_to_three_times_the_nominal_
     }
 }
 
-/// Median and largest change of pressure, sizes, force and approach in one step from the same state under loads 2.5 N apart.
-fn changes_with_the_load(mut config: Config, nominal: f64) -> [[f64; 2]; 5] {
+/// Median and largest change of pressure, sizes, force and approach in one step of 1 ms, from the same state some steps after the
+/// start, under loads 2.5 N apart.
+fn changes_with_the_load(mut config: Config, nominal: f64, steps: usize) -> [[f64; 2]; 5] {
     (config.tuning.tolerance, config.tuning.max_step) = (0.0, 1e-3);
     let model = model(config);
     let mut inputs = Inputs::rolling(model.config());
     (inputs.drive.load, inputs.drive.moment) = (nominal, -0.03 * nominal);
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
-    (0..20).for_each(|_| simulation.advance(&inputs, 1e-3).unwrap());
+    (0..steps).for_each(|_| simulation.advance(&inputs, 1e-3).unwrap());
     let before = simulation.checkpoint().clone();
     let mut under = |load: f64| {
         let mut inputs = inputs;
@@ -71,7 +72,7 @@ fn pressure_size_and_forces_change_smoothly_with_the_load() {
         for (nominal, hot) in [(1e5, true), (1e5, false), (3e4, false)] {
             let mut config = preset(name, 10);
             config.thermal.enabled = hot;
-            for (k, [median, largest]) in changes_with_the_load(config, nominal).into_iter().enumerate() {
+            for (k, [median, largest]) in changes_with_the_load(config, nominal, 20).into_iter().enumerate() {
                 println!("{name}, {nominal} N, hot {hot}, {k}: largest change {:.3} medians", largest / median);
                 assert!(median > 0.0 && largest < 2.0 * median, "{largest:e} {median:e}");
             }
@@ -80,15 +81,30 @@ fn pressure_size_and_forces_change_smoothly_with_the_load() {
 }
 
 /// On fixed nodes, too, where edges move from node to node; the width follows in stretches. Measured: 2.4 medians on a smooth
-/// rail, 1.01 on a rough one; the third patch is left out there, whose force jumps once, by 12 medians or 0.2 N.
+/// rail, 2.5 on a rough one, where a force that jumped by 12 told of weights that jumped as a node closed.
 #[test]
 fn pressure_size_and_forces_on_fixed_nodes_change_by_five_medians_at_most() {
     let rough = |name| (name, "roughness(spectrum = EN_ISO_3095)");
-    for (name, profile) in PATCHES.map(|name| (name, "")).into_iter().chain([rough(PATCHES[0]), rough(PATCHES[1])]) {
+    for (name, profile) in PATCHES.map(|name| (name, "")).into_iter().chain(PATCHES.map(rough)) {
         let mut config = preset(name, 10);
         (config.solver.contact, config.rail.profile) = (ContactMethod::Grid, profile.into());
-        for (k, [median, largest]) in changes_with_the_load(config, 1e5).into_iter().take(4).enumerate() {
+        for (k, [median, largest]) in changes_with_the_load(config, 1e5, 20).into_iter().take(4).enumerate() {
             println!("{name}, {profile:?}, {k}: largest change {:.3} medians", largest / median);
+            assert!(largest <= 5.0 * median, "{largest:e} {median:e}");
+        }
+    }
+}
+
+/// Where the chord of a flat of 30 mm meets the rail, its corners come and go with the load. At loads at which no state was found,
+/// the step was halved and the force jumped by up to 227 N: a node that stuck was pulled open by shear beyond its friction, and
+/// closed again. Measured: 4.6 medians.
+#[test]
+fn pressure_size_and_forces_under_a_flat_change_by_five_medians_at_most() {
+    for (name, steps) in [(PATCHES[0], 14), (PATCHES[2], 2), (PATCHES[2], 15)] {
+        let mut config = preset(name, 10);
+        (config.solver.contact, config.wheel.profile) = (ContactMethod::Grid, "flat(length = 0.03)".into());
+        for (k, [median, largest]) in changes_with_the_load(config, 1e5, steps).into_iter().take(4).enumerate() {
+            println!("{name} after {steps} steps, {k}: largest change {:.3} medians", largest / median);
             assert!(largest <= 5.0 * median, "{largest:e} {median:e}");
         }
     }

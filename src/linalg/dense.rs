@@ -32,6 +32,16 @@ impl DenseSystem {
         self.rhs.resize(size, 0.0);
     }
 
+    /// Takes the matrix of `size` unknowns from its rows, for any right-hand side.
+    pub fn set<'a>(&mut self, size: usize, rows: impl Iterator<Item = &'a [f64]>) {
+        self.size = size;
+        self.rows.clear();
+        for (i, row) in rows.enumerate() {
+            self.rows.extend_from_slice(row);
+            self.rows.resize((i + 1) * room(size), 0.0);
+        }
+    }
+
     /// Row `i` of the matrix, and its right-hand side.
     pub fn row(&mut self, i: usize) -> (&mut [f64], &mut f64) {
         (&mut self.rows[i * room(self.size)..][..self.size], &mut self.rhs[i])

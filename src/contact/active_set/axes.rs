@@ -132,8 +132,10 @@ impl<'a> Axes<'a> {
 /// `forces` and adds to the `constant`, in which its lateral forces are.
 fn add_line(axis: Axis, line: &ContactLine, forces: &mut [f64], constant: &mut f64) {
     let (grid, bodies, share) = (line.grid, &line.problem.bodies, line.problem.share);
-    forces.iter_mut().zip(bodies.momentum.row(axis.number()).iter()).for_each(|(f, m)| *f = *m);
-    for i in 0..grid.len() {
+    let columns = bodies.momentum.as_slice().chunks_exact(bodies.momentum.nrows());
+    forces.iter_mut().zip(columns).for_each(|(force, momentum)| *force = momentum[axis.number()]);
+    // Open nodes without forces neither are unknown nor act on the hub.
+    for i in (0..grid.len()).filter(|&i| line.state.status[i].is_active() || line.is_loaded(i)) {
         let port = grid.port(i);
         match axis {
             Axis::Travel => {

@@ -11,6 +11,7 @@ use super::fast::LinearSolver;
 use super::pressing::{PressureSearch, Thoroughness};
 use super::states::Rules;
 use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::exchange;
 use crate::contact::line::state::NodeStatus;
 use nalgebra::DVector;
 
@@ -47,7 +48,8 @@ impl LineBefore {
 
 impl Guess {
     /// Sets closed nodes, gaps, normal forces and height of the hub to those that belong to the shear forces and
-    /// velocities at hand, where the surfaces are uneven. Its `memory` holds the coefficients of all ports.
+    /// velocities at hand, where the surfaces are uneven, then the displacements to these forces: lever arms of the step
+    /// before would leave a moment that takes an iteration more. Its `memory` holds the coefficients of all ports.
     pub fn find(
         &mut self,
         lines: &mut [ContactLine],
@@ -64,6 +66,22 @@ impl Guess {
         self.starts.iter_mut().zip(&*lines).for_each(|(start, line)| start.take(line));
         if !matches!(pressing.press(lines, axes, rules, GUESSED, memory), Ok(true)) {
             self.starts.iter().zip(lines).for_each(|(start, line)| start.give_back(line));
+            return;
+        }
+        lines.iter_mut().for_each(slide);
+        exchange::forces(lines);
+        for line in lines {
+            line.follow_forces(axes.sought_accelerations(line.traction.rigid));
+        }
+    }
+}
+
+/// Gives nodes that slip the shear forces of friction under the pressures at hand.
+fn slide(line: &mut ContactLine) {
+    for i in 0..line.grid.len() {
+        let (status, port) = (line.state.status[i], line.grid.port(i));
+        if status.is_active() && !status.is_stuck() {
+            line.traction.port_forces[port] = status.friction_direction() * line.friction(i) * line.normal(i);
         }
     }
 }

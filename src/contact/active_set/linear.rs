@@ -1,7 +1,7 @@
 //! Linear problem of given states, and its solution by all equations of all lines together.
 
 use super::axes::{Axes, Equation};
-use super::unknowns::{Unknowns, scale};
+use super::unknowns::Unknowns;
 use crate::axes::Axis;
 use crate::contact::error::ContactError;
 use crate::contact::line::contact_line::ContactLine;
@@ -72,8 +72,8 @@ impl LinearProblem<'_> {
         equation.constant + equation.motions.dot(line.traction.rigid)
     }
 
-    /// Writes an equation of a line, with the coefficients `forces` of all ports of every line, to the row of a system;
-    /// scales it to a largest coefficient of one.
+    /// Writes an equation of a line, with the coefficients `forces` of all ports of every line, to the row of a system,
+    /// in which equations may have any scale.
     pub fn write(&self, line: &ContactLine, equation: &Equation, forces: &[Vec<f64>], row: (&mut [f64], &mut f64)) {
         let mut rest = &mut *row.0;
         for (unknowns, forces) in self.unknowns.lines.iter().zip(forces) {
@@ -84,7 +84,7 @@ impl LinearProblem<'_> {
         for (value, &axis) in rest.iter_mut().zip(&self.unknowns.axes) {
             *value = equation.motions[axis];
         }
-        *row.1 = -Self::left_over(equation, line) * scale(row.0);
+        *row.1 = -Self::left_over(equation, line);
     }
 }
 

@@ -158,8 +158,10 @@ impl Displaced {
         }
         ports.clear();
         ports.resize(grid.ports(), 0.0);
-        let columns = &relative.as_slice()[first * grid.ports()..];
-        add_columns(1.0, columns, 2 * grid.ports(), mean, ports);
+        let begin = mean.iter().position(|force| *force != 0.0).unwrap_or(mean.len());
+        let end = mean.iter().rposition(|force| *force != 0.0).map_or(begin, |last| last + 1);
+        let columns = relative.as_slice().get((first + 2 * begin) * grid.ports()..).unwrap_or_default();
+        add_columns(1.0, columns, 2 * grid.ports(), &mean[begin..end], ports);
         gaps.resize_with(lines.len(), Vec::new);
         for ((line, forces), gaps) in lines.iter().zip(forces).zip(gaps) {
             let of_ports = line.iterate.rim.shared[first..].iter().step_by(2);

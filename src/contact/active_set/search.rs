@@ -122,8 +122,8 @@ impl<'a> ActiveSet<'a> {
                 states::found_anew(line);
             }
         }
-        self.guess_closed();
         let laws = FollowedLaws::begin(&mut self.lines);
+        self.guess_closed();
         for line in &mut self.lines {
             line.begin_upwind();
             line.take_surface_angle();

@@ -58,7 +58,7 @@ pub(super) fn update(line: &mut ContactLine, rules: &Rules, last: bool, before: 
     let overloaded = !last && is_overloaded(line);
     let mut changed = false;
     for i in (0..line.grid.len()).rev() {
-        let new = new_state(line, i, rules, overloaded, before);
+        let new = new_state(line, i, rules, (overloaded, last), before);
         let yields = new.is_active() && yields(line, i, rules.force);
         changed |= new != before[i] || yields != line.state.yielded[i];
         line.state.status[i] = new;
@@ -70,12 +70,20 @@ pub(super) fn update(line: &mut ContactLine, rules: &Rules, last: bool, before: 
     changed
 }
 
-/// New state of a node. Where stuck nodes are `overloaded`, closed nodes stay closed and open ones open.
-fn new_state(line: &ContactLine, i: usize, rules: &Rules, overloaded: bool, before: &[NodeStatus]) -> NodeStatus {
+/// New state of a node. Where stuck nodes are `overloaded`, closed nodes stay closed and open ones open. Where nodes change
+/// `one_by_one`, a stuck one slips before it opens: shear beyond friction may be what pulls at it, and it would close again.
+fn new_state(
+    line: &ContactLine,
+    i: usize,
+    rules: &Rules,
+    (overloaded, one_by_one): (bool, bool),
+    before: &[NodeStatus],
+) -> NodeStatus {
     let old = before[i];
     let indicator = line.normal(i) - rules.penalty * line.state.gap[i];
     let closed = if overloaded || indicator.abs() <= rules.force { old.is_active() } else { indicator > 0.0 };
     match (closed, old) {
+        (false, NodeStatus::Stick) if one_by_one => stuck_state(line, i, rules.force),
         (false, _) => NodeStatus::Open,
         (true, NodeStatus::Open) if rules.founding => founding_state(line),
         (true, NodeStatus::Open) => closing_state(line, i, before),

@@ -165,6 +165,11 @@ impl<'a> ContactLine<'a> {
         self.traction.port_forces[self.grid.port(i)]
     }
 
+    /// True if candidate `i` carries a normal or a tangential force.
+    pub fn is_loaded(&self, i: usize) -> bool {
+        self.normal(i) != 0.0 || self.tangential(i) != 0.0
+    }
+
     /// Friction force that candidate `i` can bear over its normal force \[1].
     pub fn friction(&self, i: usize) -> f64 {
         self.given.strength.friction(i, self.traction.friction.coefficient)

@@ -24,8 +24,7 @@ impl ContactLine<'_> {
 
     /// Displacement of the wheel less that of the rail by an elastic layer between them at a tangential port \[m].
     pub fn moved_by_layer(&self, port: usize) -> f64 {
-        let force = self.traction.port_forces[port];
-        if force == 0.0 { 0.0 } else { force * self.layer_by_force(port) }
+        if self.problem.layer == 0.0 { 0.0 } else { self.traction.port_forces[port] * self.layer_by_force(port) }
     }
 
     /// That displacement per unit nodal force [m/(N/m)].

@@ -52,8 +52,7 @@ impl ContactLine<'_> {
     /// Displacements, exact (bilinear) slips and gaps of the present forces and rigid motions; `accelerations` are
     /// those rigid ones that were not known before, `None` the others.
     pub fn evaluate(&mut self, accelerations: PerAxis<Option<f64>>) {
-        self.displace(accelerations);
-        self.lift();
+        self.follow_forces(accelerations);
         self.take_surface_angle();
         self.frame.rim_angle = self.surface_angle;
         let (grid, problem) = (self.grid, self.problem);
@@ -81,6 +80,12 @@ impl ContactLine<'_> {
         if self.is_sideways() {
             self.evaluate_across();
         }
+    }
+
+    /// Displacements of the present forces, and the height that lever arms lack; `accelerations` as in [`Self::evaluate`].
+    pub fn follow_forces(&mut self, accelerations: PerAxis<Option<f64>>) {
+        self.displace(accelerations);
+        self.lift();
     }
 
     /// Displacements of both surfaces, and the value of the affine rim angle.
@@ -154,7 +159,7 @@ impl ContactLine<'_> {
     /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
     pub fn resultant(&self) -> PerAxis<f64> {
         let mut sum = PerAxis::default();
-        for i in 0..self.grid.len() {
+        for i in (0..self.grid.len()).filter(|&i| self.is_loaded(i)) {
             let (t, n) = (self.tangential(i), self.normal(i));
             let [arm_t, arm_n] = self.lever_arms(i);
             sum.travel += t + n * self.slopes().rail(i);

@@ -18,6 +18,16 @@ pub struct AffineRow {
     pub constant: f64,
 }
 
+/// Upwind difference of the slip at a candidate.
+struct UpwindSlip {
+    /// Its ports, with the weights of `∂u/∂x` [1/m].
+    stencil: [(usize, f64); 3],
+    /// Stretches of wheel and rail by it \[1].
+    stretches: [f64; 2],
+    /// Change of the slip with the rim angle [m/s/rad].
+    by_angle: f64,
+}
+
 /// Kind of the equation of a node.
 #[derive(Clone, Copy)]
 pub enum NodeEquation {
@@ -73,7 +83,7 @@ impl ContactLine<'_> {
     /// Writes the change of the slip at a candidate with the forces of a line, a `share` of which the bodies feel, at
     /// the ports `window` to `forces`: as far as the bodies are displaced.
     pub fn slip_by_shared(&self, i: usize, share: f64, window: Range<usize>, forces: &mut [f64]) {
-        let (stencil, by_angle) = self.upwind_slip(i);
+        let UpwindSlip { stencil, by_angle, .. } = self.upwind_slip(i);
         let (v, velocity, gain) = (self.traction.rigid.travel, self.rim_velocity(), self.problem.time.a0);
         let Influence { compliance, relative } = self.problem.bodies.shared;
         let of_node = |matrix, at: usize| &column(matrix, at)[window.clone()];
@@ -107,14 +117,14 @@ impl ContactLine<'_> {
         }
     }
 
-    /// Upwind stencil of the slip at a candidate, and the change of the slip with the rim angle [m/s/rad]: a turn of
-    /// the rim tilts the surface and slows the rim.
-    fn upwind_slip(&self, i: usize) -> ([(usize, f64); 3], f64) {
+    /// The upwind difference of the slip at a candidate: a turn of the rim tilts the surface and slows the rim.
+    fn upwind_slip(&self, i: usize) -> UpwindSlip {
         let (row, to_right) = (self.iterate.upwind.row(i), self.upstream_right());
-        let (stencil, [stretch, _]) = (self.stencil(i, row, to_right), self.stretches(i, row, to_right));
+        let (stencil, stretches) = (self.stencil(i, row, to_right), self.stretches(i, row, to_right));
         let height = |at: usize| self.frame.radius - self.frame.sagitta[at / 2];
         let tilt: f64 = stencil.iter().map(|(at, weight)| weight * height(*at)).sum();
-        (stencil, self.rim_velocity() * tilt + self.problem.radius() * self.problem.time.a0 * stretch)
+        let by_angle = self.rim_velocity() * tilt + self.problem.radius() * self.problem.time.a0 * stretches[0];
+        UpwindSlip { stencil, stretches, by_angle }
     }
 
     /// The gap at a candidate without that by contact forces and by the rim angle with them \[m].
@@ -133,19 +143,18 @@ impl ContactLine<'_> {
     pub fn add_slip(&self, i: usize, window: Range<usize>, forces: &mut [f64]) -> AffineRow {
         let problem = self.problem;
         let bodies = &problem.bodies;
-        let to_right = self.upstream_right();
         let port = self.grid.port(i);
         let (v, velocity) = (self.traction.rigid.travel, self.rim_velocity());
         let gain = problem.time.a0;
         let [wheel, rail] = &self.given.displacement;
         let mut accelerations = bodies.inertial_at(port).map(|by| gain * by);
         let mut constant = gain * (wheel[port] - rail[port]) + self.given.slip_offset[i];
-        let (stencil, by_angle) = self.upwind_slip(i);
+        let UpwindSlip { stencil, stretches, by_angle } = self.upwind_slip(i);
         for (at, weight) in stencil {
             accelerations.add(-velocity * weight, bodies.inertial_at(at));
             constant += weight * (v * rail[at] - velocity * self.frame.tangential(wheel, at));
         }
-        let [stretch_wheel, stretch_rail] = self.stretches(i, self.iterate.upwind.row(i), to_right);
+        let [stretch_wheel, stretch_rail] = stretches;
         self.add_slip_of_layer(i, stencil, window.clone(), forces);
         let [a, b, c] = stencil.map(|(at, weight)| (at, -(v + velocity) * weight));
         self.add_alone(0, by_angle, [(port, 2.0 * gain), a, b, c], window.clone(), forces);
@@ -177,9 +186,12 @@ vectorised! {
     /// surfaces waits for.
     fn combine<'a, S>(simd, sum: &'a mut [f64], terms: [Term<'a>; TERMS]) {
         let count = sum.len();
-        let terms = terms.map(|(values, factor)| (S::as_simd_f64s(&values[..count]), factor));
+        let terms: [_; TERMS] = std::array::from_fn(|k| (S::as_simd_f64s(&terms[k].0[..count]), terms[k].1));
         let (sum, sum_rest) = S::as_mut_simd_f64s(sum);
-        let many = terms.map(|((values, _), factor)| (&values[..sum.len()], simd.splat_f64s(factor)));
+        let many: [_; TERMS] = std::array::from_fn(|k| {
+            let ((values, _), factor) = terms[k];
+            (&values[..sum.len()], simd.splat_f64s(factor))
+        });
         for (k, sum) in sum.iter_mut().enumerate() {
             let zero = simd.splat_f64s(0.0);
             *sum = many.iter().fold(zero, |sum, (values, factor)| simd.mul_add_e_f64s(*factor, values[k], sum));

@@ -41,7 +41,8 @@ impl Slopes<'_> {
     fn falls(&self, i: usize) -> [f64; 2] {
         let after = self.fall(i, Some(i + 1), i);
         let before = self.fall(i, i.checked_sub(1), i + 2);
-        [0, 1].map(|body| (after[body] - before[body]) / self.grid.span(i))
+        let span = self.grid.span(i);
+        [(after[0] - before[0]) / span, (after[1] - before[1]) / span]
     }
 
     /// Parts of the gap at the neighbour `beside` of candidate `i` [m]; `behind`: place of the other neighbour in the

@@ -54,7 +54,8 @@ impl PressureShear {
         let rows = sheared + usize::from(height_is_free);
         let unknowns = self.gap.len() + rows;
         self.sheared = sheared;
-        self.rows.resize(rows * unknowns, 0.0);
+        // Longer ones of before are kept: to fill them again costs as much as a tenth of the solution.
+        self.rows.resize(self.rows.len().max(rows * unknowns), 0.0);
         self.constants.resize(rows, 0.0);
         self.unknowns.resize(unknowns, 0.0);
     }
@@ -88,10 +89,8 @@ impl PressureShear {
     /// Factorises the equations of the sheared unknowns.
     fn factorise(&mut self) -> bool {
         let (width, closed, sheared) = (self.unknowns.len(), self.gap.len(), self.sheared);
-        self.system.reset(sheared);
-        for (r, row) in self.rows.chunks(width).take(sheared).enumerate() {
-            self.system.row(r).0.copy_from_slice(&row[closed..closed + sheared]);
-        }
+        let rows = self.rows.chunks(width).take(sheared);
+        self.system.set(sheared, rows.map(|row| &row[closed..closed + sheared]));
         self.system.factorise()
     }
 

@@ -146,6 +146,12 @@ struct Filled<'a, V> {
     left: V,
 }
 
+/// Both parts of an entry in all lanes. A function that is always inlined: `map` of arrays need not be.
+#[inline(always)]
+fn both<V>(simd: impl Simd<f64s = V>, [by_alpha, other]: [f64; 2]) -> [V; 2] {
+    [simd.splat_f64s(by_alpha), simd.splat_f64s(other)]
+}
+
 impl<V: Copy> Filled<'_, V> {
     /// The carried numbers of `B` registers from `at` on.
     #[inline(always)]
@@ -165,14 +171,14 @@ impl<V: Copy> Filled<'_, V> {
     ) {
         let (k, alpha): (usize, [V; B]) = (alpha.len(), std::array::from_fn(|q| alpha[at + q]));
         let [mut sums, mut before, mut column, mut row, mut taken] = self.carried::<B>(at);
-        let closing = ring.entries(ring.last).above.map(|entry| simd.splat_f64s(entry));
+        let closing = both(simd, ring.entries(ring.last).above);
         let (one, zero) = (simd.splat_f64s(1.0), simd.splat_f64s(0.0));
         let part = |entry: [V; 2], alpha: V| simd.mul_add_e_f64s(alpha, entry[0], entry[1]);
         let mut left = zero;
         for (number, step) in steps.enumerate() {
             let i = ring.node(step);
             let Entries { sum, below, above } = ring.entries(i);
-            let [sum, below, above] = [sum, below, above].map(|entry| entry.map(|part| simd.splat_f64s(part)));
+            let (sum, below, above) = (both(simd, sum), both(simd, below), both(simd, above));
             let [w, r, inverse] = self.factors.each_mut().map(|factor| &mut factor[i * k + at..][..B]);
             let [columns, rows] = self.fill.each_mut().map(|fill| &mut fill[number * k + at..][..B]);
             left = zero;
@@ -221,7 +227,7 @@ impl<V: Copy> Filled<'_, V> {
         for step in steps {
             let i = ring.node(step);
             let Entries { sum, below, above } = ring.entries(i);
-            let [sum, below, above] = [sum, below, above].map(|entry| entry.map(|part| simd.splat_f64s(part)));
+            let (sum, below, above) = (both(simd, sum), both(simd, below), both(simd, above));
             let [w, r, inverse] = self.factors.each_mut().map(|factor| &mut factor[i * k + at..][..B]);
             for q in 0..B {
                 let (mut below, mut above) = (part(below, alpha[q]), part(above, alpha[q]));

@@ -273,7 +273,7 @@ vectorised! {
         let mut out = out.map(|out| S::as_mut_simd_f64s(out).0);
         let values = S::as_simd_f64s(values).0;
         let ([storage, conduction, flow], k) = (weights, values.len());
-        let [storage, conduction] = [storage, conduction].map(|weight| simd.splat_f64s(weight));
+        let (storage, conduction) = (simd.splat_f64s(storage), simd.splat_f64s(conduction));
         // Rows before, here and after.
         let mut rows = [[values; 3]; L];
         for l in 0..L {
@@ -282,8 +282,8 @@ vectorised! {
         }
         let n = transport.rows.len();
         for (i, &[below, sum, above, from, to]) in transport.rows.iter().enumerate() {
-            let [below, sum, above] = [below, sum, above].map(|mass| simd.splat_f64s(mass));
-            let [from, to] = [from, to].map(|carried| simd.splat_f64s(-flow * carried));
+            let (below, sum, above) = (simd.splat_f64s(below), simd.splat_f64s(sum), simd.splat_f64s(above));
+            let (from, to) = (simd.splat_f64s(-flow * from), simd.splat_f64s(-flow * to));
             let next = if i + 1 == n { 0 } else { (i + 1) * k };
             let mut targets: [&mut [S::f64s]; L] = std::array::from_fn(|_| Default::default());
             for (target, out) in targets.iter_mut().zip(out.iter_mut()) {
