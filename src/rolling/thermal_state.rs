@@ -74,21 +74,63 @@ pub struct ThermalDeformation {
     pub swelling: [Piecewise; 2],
     /// Membrane force of the hot layers of wheel and rail [N/m].
     pub membrane_force: [Piecewise; 2],
+    /// Time by which the hot layers lag behind their heat \[s].
+    pub lag: f64,
+    /// Swelling and membrane force that acted in the last step, wheel and rail each, at the same places; empty: nothing lags.
+    pub acted: [Vec<f64>; 4],
 }
+
+/// Time that passes while a lag shortens by its own unit, over the latter \[1]. A lag that ended at once would let the layers
+/// swell in one short step by what they missed in long ones, and throw the wheel up.
+const CATCHING_UP: f64 = 2.0;
 
 impl ThermalDeformation {
     /// None at all.
     pub const NONE: Self = {
         const EMPTY: Piecewise = Piecewise::EMPTY;
-        Self { radius_growth: 0.0, swelling: [EMPTY, EMPTY], membrane_force: [EMPTY, EMPTY] }
+        Self {
+            radius_growth: 0.0,
+            swelling: [EMPTY, EMPTY],
+            membrane_force: [EMPTY, EMPTY],
+            lag: 0.0,
+            acted: [const { Vec::new() }; 4],
+        }
     };
+
+    /// Lets the hot layers lag behind in a step of `dt` \[s] from `before`: by `lag` \[s], and by what is left of the lag before.
+    /// The growth of the wheel does not lag: held back in long steps it would press the wheel onto the rail in the next short one.
+    pub fn relax(&mut self, before: &Self, dt: f64, lag: f64) {
+        self.lag = lag.max(before.lag - dt / CATCHING_UP);
+        self.acted.iter_mut().for_each(Vec::clear);
+        if self.lag > 0.0 {
+            let growth = self.radius_growth;
+            self.average(before, dt / (dt + self.lag));
+            self.radius_growth = growth;
+            for (acted, layer) in self.acted.iter_mut().zip(before.layers()) {
+                acted.extend_from_slice(&layer.value);
+            }
+        }
+    }
+
+    /// Lets what has changed in the last step act to this `share` only in one that is as much shorter: it changes no faster than
+    /// before.
+    pub fn ease(&mut self, share: f64) {
+        let Self { swelling, membrane_force, acted, .. } = self;
+        for (now, acted) in swelling.iter_mut().chain(membrane_force).zip(acted) {
+            now.value.iter_mut().zip(acted).for_each(|(now, acted)| *now = *acted + share * (*now - *acted));
+        }
+    }
+
+    fn layers(&self) -> impl Iterator<Item = &Piecewise> {
+        self.swelling.iter().chain(&self.membrane_force)
+    }
 
     /// Moves it by `share` of the way from `before` to where it is.
     pub fn average(&mut self, before: &Self, share: f64) {
         let mix = |now: &mut f64, before: f64| *now = before + share * (*now - before);
         mix(&mut self.radius_growth, before.radius_growth);
         let layers = self.swelling.iter_mut().chain(&mut self.membrane_force);
-        for (now, before) in layers.zip(before.swelling.iter().chain(&before.membrane_force)) {
+        for (now, before) in layers.zip(before.layers()) {
             now.value.iter_mut().zip(&before.value).for_each(|(now, before)| mix(now, *before));
         }
     }

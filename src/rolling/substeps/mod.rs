@@ -27,7 +27,7 @@ use super::elevation::HeightCourse;
 use super::error::StepError;
 use super::model::{RollingModel, Workspace};
 use super::state::{Pressing, State, StepControl};
-use super::step::{Demand, step};
+use super::step::{Demand, remember, step};
 use crate::axes::PerAxis;
 use crate::config::Tuning;
 use crate::heat::{HeatError, HeatFlows};
@@ -319,6 +319,7 @@ fn march(
             continue;
         }
         found.check(model)?;
+        remember(model, from, &demand, dt, workspace, next);
         control.memory.before = controlled(model, from);
         (place.done, failures) = (place.done + 1, 0);
         if place.done < place.pieces && ramp.stop.is_some_and(|stop| stop(next)) {

@@ -9,8 +9,8 @@
 //! |---|---|
 //! | contact forces x, y, z | nominal load P |
 //! | contact moment about the hub | P r |
-//! | mean slip of the tread in the patch, x and z | `(a/r)(V + a/Δt)`, or the slip itself where that is more |
-//! | mean temperatures of wheel and rail in the patch | 100 K, or the temperature rise where that is more |
+//! | mean slip of the tread in the patch, x and z | `(a/r)(V + a/Δt)`, or 2.5 times the slip where that is more |
+//! | mean temperatures of wheel and rail in the patch | 100 K, or 2.5 times the temperature rise where that is more |
 //!
 //! A wheel in the air has no contact forces. What acts on it besides its load are the damper and its own deformation,
 //! which rings after a strike or a release and keeps some of its energy. So where the forces on the hub are given, what
@@ -31,6 +31,10 @@ use crate::rolling::state::{Controlled, State};
 
 /// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
 const WARM: f64 = 100.0;
+
+/// Share of a slip or of a temperature rise whose error counts as much as that of the same share of the nominal load, inverted
+/// \[1]: half a per cent of them at the default tolerance. Forces hardly depend on either while the contact slides or is hot.
+const OWN: f64 = 2.5;
 
 /// Distance to the temperature without friction from which on a step may melt the contact [K].
 const NEARLY_MOLTEN: f64 = 100.0;
@@ -96,6 +100,8 @@ pub struct Found {
     pub whole: bool,
     /// Length over that of the step before, zero without one \[1].
     ratio: f64,
+    /// Length over that of the step before, even if the time formula has started afresh since \[1].
+    ratio_of_heat: f64,
 }
 
 impl Found {
@@ -133,7 +139,7 @@ impl Found {
             let half_width = model.contact.nominal_half_width();
             let speed = 0.5 * (found.velocity.abs() + (radius * found.omega).abs());
             let scale =
-                (half_width / radius * (speed + half_width / dt)).max(libm::hypot(found.slip[0], found.slip[1]));
+                (half_width / radius * (speed + half_width / dt)).max(OWN * libm::hypot(found.slip[0], found.slip[1]));
             for (k, explained) in explained.into_iter().enumerate() {
                 error = error.max((missed(&|c| c.slip[k]).abs() - explained.abs()) / scale);
             }
@@ -141,7 +147,8 @@ impl Found {
         let yields = to.lines.iter().any(|line| line.contact.traction.yielding.share > 0.0);
         let dented = to.lines.iter().any(|line| line.flattening[0].is_dented());
         let strikes = from.touches() != to.touches();
-        Self { error, yields, dented, strikes, first, doubled: ratio > 1.5, ratio, ..Self::default() }
+        let ratio_of_heat = if last_step > 0.0 { dt / last_step } else { 0.0 };
+        Self { error, yields, dented, strikes, first, doubled: ratio > 1.5, ratio, ratio_of_heat, ..Self::default() }
     }
 
     /// Adds what the heat of the same step tells.
@@ -152,8 +159,10 @@ impl Found {
         if from.touches() && to.touches() {
             let (now, found) = (temperatures(from), temperatures(to));
             for body in 0..2 {
-                let missed = missed([&before.temperatures, &now, &found], self.ratio, &|rises| rises[body]);
-                warming = warming.max(missed.abs() / WARM.max(found[body].abs()));
+                // A jump of the motion need not be one of the heat: what goes on as before, or stays, is predicted.
+                let missed = [self.ratio, self.ratio_of_heat]
+                    .map(|ratio| missed([&before.temperatures, &now, &found], ratio, &|rises| rises[body]).abs());
+                warming = warming.max(missed[0].min(missed[1]) / WARM.max(OWN * found[body].abs()));
             }
         }
         let (rise, hottest) = (hottest(to) - hottest(from), thermal.reference() + hottest(to));
