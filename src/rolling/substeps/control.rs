@@ -26,9 +26,9 @@ const FINEST: f64 = 1e-5;
 /// Internal step in which contact is made or lost that errors alone do not halve any further \[s]: the force begins or
 /// ends somewhere within, and its energy errs by what it does on the way of the whole step.
 const STRIKE: f64 = 2e-6;
-/// Internal step that errors of the temperature alone do not halve any further [s]: shorter ones bring no better
-/// temperatures, since those of a hot sliding contact scatter by more than the default tolerance whatever the step.
-const WARMING: f64 = 2.5e-4;
+/// Internal step that errors of the temperature alone do not halve [s]: shorter ones bring no better temperatures, since
+/// those of a hot sliding contact scatter by as much whatever the step.
+const WARMING: f64 = 1e-3;
 /// Tolerance \[1] below which shorter steps than [`FINEST`] and [`STRIKE`] are taken, and the shortest of them over
 /// those \[1].
 const TOLERANCE: f64 = 2e-3;
