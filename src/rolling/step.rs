@@ -77,7 +77,7 @@ pub fn step(
     next: &mut State,
 ) -> Result<bool, StepError> {
     let plan = Plan::new(model, state, demand, dt);
-    let eased = eased(state, plan.dt);
+    let (before, eased) = (state, eased(state, plan.dt));
     let state = eased.as_ref().unwrap_or(state);
     if !attempt(model, state, demand, &plan, judge, workspace, next)? {
         return Ok(false);
@@ -97,6 +97,7 @@ pub fn step(
             return Ok(false);
         }
     }
+    audit::expand(before, next);
     Ok(true)
 }
 
@@ -173,7 +174,6 @@ fn heat(
     }
     spreading::spread(model, state, dt, next)?;
     thermal::share_growth(&mut next.lines);
-    audit::expand(state, next);
     Ok(())
 }
 

@@ -83,6 +83,8 @@ pub struct ThermalDeformation {
 /// Time that passes while a lag shortens by its own unit, over the latter \[1]. A lag that ended at once would let the layers
 /// swell in one short step by what they missed in long ones, and throw the wheel up.
 const CATCHING_UP: f64 = 2.0;
+/// Longest lag that is left after a step \[s]: the wheel swings on the rail within less.
+const LONGEST_LAG: f64 = 1e-2;
 
 impl ThermalDeformation {
     /// None at all.
@@ -100,7 +102,7 @@ impl ThermalDeformation {
     /// Lets the hot layers lag behind in a step of `dt` \[s] from `before`: by `lag` \[s], and by what is left of the lag before.
     /// The growth of the wheel does not lag: held back in long steps it would press the wheel onto the rail in the next short one.
     pub fn relax(&mut self, before: &Self, dt: f64, lag: f64) {
-        self.lag = lag.max(before.lag - dt / CATCHING_UP);
+        self.lag = lag.max(before.lag.min(LONGEST_LAG) - dt / CATCHING_UP);
         self.acted.iter_mut().for_each(Vec::clear);
         if self.lag > 0.0 {
             let growth = self.radius_growth;

@@ -351,6 +351,7 @@ impl ThermalModel {
         self.heat.fits(&thermal.fields)
             && self.history.fits(&thermal.damage)
             && thermal.surface.iter().all(|surface| surface.len() == PROFILE_POINTS)
+            && deformation.acted.iter().flatten().all(|value| value.is_finite())
             && profiles.clone().all(|profile| profile.check().is_ok())
     }
 
