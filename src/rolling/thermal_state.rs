@@ -137,3 +137,33 @@ impl ThermalDeformation {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Layers whose heat grows at an even rate, in 30 steps of 1 ms and then in steps of 10 µs: what acts never changes at more
+    /// than 2.5 times that rate, and has caught up in the end.
+    #[test]
+    fn layers_that_swell_evenly_go_on_so_where_steps_become_shorter() {
+        let (rate, unit) = (3.0, 0.2e-3);
+        let mut state = ThermalDeformation::NONE;
+        state.swelling[0].push(0.0, 0.0);
+        let (mut time, mut last, mut acting, mut fastest) = (0.0, 1e-3, 0.0, 0.0_f64);
+        for dt in std::iter::repeat_n(1e-3, 30).chain(std::iter::repeat_n(1e-5, 2000)) {
+            if dt < last {
+                state.ease(dt / last);
+            }
+            let now = state.swelling[0].value[0];
+            fastest = fastest.max((now - acting) / dt);
+            (time, acting, last) = (time + dt, now, dt);
+            let mut next = ThermalDeformation::NONE;
+            next.swelling[0].push(0.0, rate * time);
+            next.relax(&state, dt, dt * dt / unit);
+            state = next;
+        }
+        let behind = time - acting / rate;
+        println!("{:.2} times the rate at most, {behind:.1e} s behind in the end", fastest / rate);
+        assert!((1.0..2.5).contains(&(fastest / rate)) && behind < 5e-5);
+    }
+}
