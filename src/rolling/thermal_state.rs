@@ -83,6 +83,9 @@ pub struct ThermalDeformation {
 /// Time that passes while a lag shortens by its own unit, over the latter \[1]. A lag that ended at once would let the layers
 /// swell in one short step by what they missed in long ones, and throw the wheel up.
 const CATCHING_UP: f64 = 2.0;
+/// Share of the last change of a layer that lags by which it goes on changing \[1]: layers that swell evenly lag less, and those
+/// that alternate are held back more.
+const MOMENTUM: f64 = 0.5;
 /// Longest lag that is left after a step \[s]: the wheel swings on the rail within less.
 const LONGEST_LAG: f64 = 1e-2;
 
@@ -105,11 +108,15 @@ impl ThermalDeformation {
         self.lag = lag.max(before.lag.min(LONGEST_LAG) - dt / CATCHING_UP);
         self.acted.iter_mut().for_each(Vec::clear);
         if self.lag > 0.0 {
-            let growth = self.radius_growth;
-            self.average(before, dt / (dt + self.lag));
-            self.radius_growth = growth;
-            for (acted, layer) in self.acted.iter_mut().zip(before.layers()) {
-                acted.extend_from_slice(&layer.value);
+            let share = dt / (dt + self.lag);
+            let Self { swelling, membrane_force, acted, .. } = self;
+            let layers = swelling.iter_mut().chain(membrane_force).zip(before.layers());
+            for ((now, before), (acted, earlier)) in layers.zip(acted.iter_mut().zip(&before.acted)) {
+                acted.extend_from_slice(&before.value);
+                for (k, (now, acting)) in now.value.iter_mut().zip(&before.value).enumerate() {
+                    let going_on = acting + earlier.get(k).map_or(0.0, |earlier| MOMENTUM * (acting - earlier));
+                    *now = going_on + share * (*now - going_on);
+                }
             }
         }
     }

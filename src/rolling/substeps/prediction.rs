@@ -9,7 +9,7 @@
 //! |---|---|
 //! | contact forces x, y, z | nominal load P |
 //! | contact moment about the hub | P r |
-//! | mean slip of the tread in the patch, x and z | `(a/r)(V + a/Δt)`, or 2.5 times the slip where that is more |
+//! | mean slip of the tread in the patch, x and z | `(a/r)(V + a/Δt)`, or the slip itself where that is more; 2.5 times the slip where the brake has just locked |
 //! | mean temperatures of wheel and rail in the patch | 100 K, or 2.5 times the temperature rise where that is more |
 //!
 //! A wheel in the air has no contact forces. What acts on it besides its load are the damper and its own deformation,
@@ -32,8 +32,9 @@ use crate::rolling::state::{Controlled, State};
 /// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
 const WARM: f64 = 100.0;
 
-/// Share of a slip or of a temperature rise whose error counts as much as that of the same share of the nominal load, inverted
-/// \[1]: half a per cent of them at the default tolerance. Forces hardly depend on either while the contact slides or is hot.
+/// Share of a temperature rise whose error counts as much as that of the same share of the nominal load, inverted \[1]: half a
+/// per cent of it at the default tolerance. Likewise of the slip in the first step of a locked wheel, in which the whole change
+/// counts and not what a line misses.
 const OWN: f64 = 2.5;
 
 /// Distance to the temperature without friction from which on a step may melt the contact [K].
@@ -138,8 +139,9 @@ impl Found {
             ];
             let half_width = model.contact.nominal_half_width();
             let speed = 0.5 * (found.velocity.abs() + (radius * found.omega).abs());
+            let own = if first && to.hub.brake.locked { OWN } else { 1.0 };
             let scale =
-                (half_width / radius * (speed + half_width / dt)).max(OWN * libm::hypot(found.slip[0], found.slip[1]));
+                (half_width / radius * (speed + half_width / dt)).max(own * libm::hypot(found.slip[0], found.slip[1]));
             for (k, explained) in explained.into_iter().enumerate() {
                 error = error.max((missed(&|c| c.slip[k]).abs() - explained.abs()) / scale);
             }
