@@ -74,7 +74,7 @@ pub struct ThermalDeformation {
     pub swelling: [Piecewise; 2],
     /// Membrane force of the hot layers of wheel and rail [N/m].
     pub membrane_force: [Piecewise; 2],
-    /// Time by which the hot layers lag behind their heat \[s].
+    /// Time in which the hot layers follow their heat besides the length of the step \[s]; zero: they do not lag.
     pub lag: f64,
     /// Swelling and membrane force that acted in the last step, wheel and rail each, at the same places; empty: nothing lags.
     pub acted: [Vec<f64>; 4],
