@@ -30,7 +30,7 @@ pub struct Smoothing {
 impl Smoothing {
     /// Smooths `values` at the positions `x` \[m] for heat at the mean `depth` \[m]; `spacing` \[m] is the distance of
     /// the contact nodes. Beyond the ends there is nothing.
-    pub fn apply(&mut self, x: &[f64], values: &mut Vec<f64>, depth: f64, spacing: f64) {
+    pub fn apply(&mut self, x: &[f64], values: &mut [f64], depth: f64, spacing: f64) {
         if depth <= NOTICED * spacing || values.len() != x.len() {
             return;
         }
