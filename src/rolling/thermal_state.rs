@@ -80,12 +80,13 @@ pub struct ThermalDeformation {
     pub acted: [Vec<f64>; 4],
 }
 
-/// Time that passes while a lag shortens by its own unit, over the latter \[1]. A lag that ended at once would let the layers
-/// swell in one short step by what they missed in long ones, and throw the wheel up.
-const CATCHING_UP: f64 = 2.0;
+/// Time that passes while a lag shortens by its own unit, over the latter \[1]: under a wheel that stands, and under one that
+/// turns and carries its hot layers out of the contact. A lag that ended at once would let the layers swell in one short step by
+/// what they missed in long ones, and throw the wheel up.
+const CATCHING_UP: [f64; 2] = [2.0, 0.5];
 /// Share of the last change of a layer that lags by which it goes on changing \[1]: layers that swell evenly lag less, and those
 /// that alternate are held back more.
-const MOMENTUM: f64 = 0.5;
+const MOMENTUM: f64 = 0.75;
 /// Longest lag that is left after a step \[s]: the wheel swings on the rail within less.
 const LONGEST_LAG: f64 = 1e-2;
 
@@ -102,10 +103,11 @@ impl ThermalDeformation {
         }
     };
 
-    /// Lets the hot layers lag behind in a step of `dt` \[s] from `before`: by `lag` \[s], and by what is left of the lag before.
+    /// Lets the hot layers lag behind in a step of `dt` \[s] from `before`, in which the wheel `turns` or stands: by `lag` \[s],
+    /// and by what is left of the lag before.
     /// The growth of the wheel does not lag: held back in long steps it would press the wheel onto the rail in the next short one.
-    pub fn relax(&mut self, before: &Self, dt: f64, lag: f64) {
-        self.lag = lag.max(before.lag.min(LONGEST_LAG) - dt / CATCHING_UP);
+    pub fn relax(&mut self, before: &Self, (dt, turns): (f64, bool), lag: f64) {
+        self.lag = lag.max(before.lag.min(LONGEST_LAG) - dt / CATCHING_UP[usize::from(turns)]);
         self.acted.iter_mut().for_each(Vec::clear);
         if self.lag > 0.0 {
             let share = dt / (dt + self.lag);
@@ -166,7 +168,7 @@ mod tests {
             (time, acting, last) = (time + dt, now, dt);
             let mut next = ThermalDeformation::NONE;
             next.swelling[0].push(0.0, rate * time);
-            next.relax(&state, dt, dt * dt / unit);
+            next.relax(&state, (dt, false), dt * dt / unit);
             state = next;
         }
         let behind = time - acting / rate;

@@ -33,7 +33,7 @@ use crate::config::Tuning;
 use crate::heat::{HeatError, HeatFlows};
 use control::{Control, Verdict};
 use events::{condition, shortened};
-use prediction::{Found, controlled, may_melt};
+use prediction::{Found, SWING, controlled, may_melt};
 
 /// Longest communication step \[s].
 pub const LONGEST_STEP: f64 = 3600.0;
@@ -242,6 +242,17 @@ impl Sums {
     }
 }
 
+/// True if a step of `dt` seconds is too long to be tried since the wheel stops in it, or has stopped in the one before, whose
+/// rim swings about the hub afterwards.
+fn stops(from: &State, dt: f64) -> bool {
+    let omega = from.motion.omega;
+    let (stopped, stopping) = match from.hub.brake.locked {
+        true => (omega.before != 0.0, false),
+        false => (false, from.hub.brake.moment * omega.now < 0.0 && omega.now * (omega.now + dt * omega.rate) < 0.0),
+    };
+    (stopped || stopping) && dt > 2.0 * SWING * (1.0 + 1e-9)
+}
+
 /// True if a shorter step may succeed where one has failed with this error.
 fn shorter_may_succeed(error: &StepError) -> bool {
     matches!(
@@ -298,6 +309,10 @@ fn march(
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
         let dt = ramp.h / place.pieces as f64;
+        if tuning.tolerance > 0.0 && stops(from, dt) && place.may_halve(tuning, tried) {
+            place.halve();
+            continue;
+        }
         let interim = place.done + 1 < place.pieces;
         let [begin, target] = [place.done, place.done + 1].map(|done| ramp.at(done as f64 / place.pieces as f64));
         let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, interim, last_step };

@@ -43,11 +43,11 @@ use weakening::WeakSteel;
 const OVERHEATING: f64 = 50.0;
 
 /// Length of a step in which the deformation of a very hot contact goes half of the way to its new value, times the
-/// expansion coefficient \[s/K]; 0.29 ms for steel. In steps of h it goes the share `1/(1 + h/`this`)`. Where the edge
+/// expansion coefficient \[s/K]; 0.33 ms for steel. In steps of h it goes the share `1/(1 + h/`this`)`. Where the edge
 /// of the patch cools the steel that it touches, the steel shrinks, the edge recedes, and steel warms and swells again,
 /// one step later: a feedback from one step to the next of about −7 per millisecond for steel, measured, and
-/// proportional to the expansion. It flips beyond `3/(2 + 7 h/ms)`.
-const DAMPED: f64 = 3.43e-9;
+/// proportional to the expansion. It flips beyond `3.5/(2.5 + 7 h/ms)`.
+const DAMPED: f64 = 3.9e-9;
 
 /// Excess temperature of the hotter surface up to which the depth of the heat does not smooth its swelling \[K].
 /// Flashes of quiet rolling swell by nanometres, whatever their depth, and it changes with every step.
@@ -232,7 +232,7 @@ impl ThermalModel {
         seen.resize_with(lines.len().max(seen.len()), Observation::default);
         for ((line, flows), seen) in lines.iter_mut().zip(flows).zip(seen) {
             line.thermal.flows = flows;
-            self.follow(line, dt, (seen, smoothing))?;
+            self.follow(line, (dt, motion.omega.now != 0.0), (seen, smoothing))?;
         }
         Ok(())
     }
@@ -258,7 +258,7 @@ impl ThermalModel {
     fn follow(
         &self,
         line: &mut ThermalLine,
-        dt: f64,
+        (dt, turns): (f64, bool),
         view: (&mut Observation, &mut [Smoothing; 2]),
     ) -> Result<(), StepError> {
         let ThermalLine { before, contact, thermal } = line;
@@ -268,7 +268,7 @@ impl ThermalModel {
         thermal.melted = thermal.temperatures.melted.iter().copied().fold(before.melted, f64::max);
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         let lag = if hottest > SOFTENS { dt * dt * self.thermal_expansion / DAMPED } else { 0.0 };
-        thermal.deformation.relax(&before.deformation, dt, lag);
+        thermal.deformation.relax(&before.deformation, (dt, turns), lag);
         let [sum, amount] = thermal.flows.balance();
         thermal.unaccounted = before.unaccounted + dt * sum;
         thermal.turned_over = before.turned_over + dt * amount;
