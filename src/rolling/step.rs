@@ -78,16 +78,16 @@ pub fn step(
 ) -> Result<bool, StepError> {
     let plan = Plan::new(model, state, demand, dt);
     let (before, eased) = (state, eased(state, plan.dt));
-    let state = eased.as_ref().unwrap_or(state);
+    let state = eased.as_deref().unwrap_or(state);
     if !attempt(model, state, demand, &plan, judge, workspace, next)? {
         return Ok(false);
     }
-    let mut again: Option<State> = None;
+    let mut again: Option<Box<State>> = None;
     for _ in 0..COOLER {
         if plan.dt > LONGEST_AGAIN * (1.0 + 1e-9) || !overheats(model, state, next) {
             break;
         }
-        let again = again.get_or_insert_with(|| state.clone());
+        let again = again.get_or_insert_with(|| boxed(state));
         for (line, found) in again.lines.iter_mut().zip(&next.lines) {
             if let (Some(thermal), Some(found)) = (&mut line.thermal, &found.thermal) {
                 thermal.weakening.film.clone_from(&found.weakening.film);
@@ -102,15 +102,23 @@ pub fn step(
 }
 
 /// The state in which a step of `dt` seconds begins whose hot layers lag, if it is shorter than the last one.
-fn eased(state: &State, dt: f64) -> Option<State> {
+fn eased(state: &State, dt: f64) -> Option<Box<State>> {
     let share = dt / state.clock.last_step;
     let lags = |line: &Line| line.deformation().lag > 0.0;
     if share > 1.0 - 1e-9 || !share.is_finite() || !state.lines.iter().any(lags) {
         return None;
     }
-    let mut eased = state.clone();
+    let mut eased = boxed(state);
     eased.lines.iter_mut().filter_map(|line| line.thermal.as_mut()).for_each(|thermal| thermal.deformation.ease(share));
     Some(eased)
+}
+
+/// A copy on the heap: states are large, and hosts may have small stacks.
+#[inline(never)]
+fn boxed(state: &State) -> Box<State> {
+    let mut copy = Box::<State>::default();
+    (*copy).clone_from(state);
+    copy
 }
 
 /// True if friction has heated the contact beyond what a molten film lets it: within a step the film is that of its

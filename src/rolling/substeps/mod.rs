@@ -68,6 +68,13 @@ impl Place {
         tried + 2 * (self.pieces - self.done) <= tuning.max_internal_steps as u64
     }
 
+    /// Halves a communication step of `h` seconds, after a number of steps `tried`, until the wheel stops in a short one.
+    fn meet_stop(&mut self, from: &State, h: f64, tuning: &Tuning, tried: u64) {
+        while tuning.tolerance > 0.0 && stops(from, h / self.pieces as f64) && self.may_halve(tuning, tried) {
+            self.halve();
+        }
+    }
+
     fn halve(&mut self) {
         (self.done, self.pieces) = (2 * self.done, 2 * self.pieces);
     }
@@ -242,7 +249,7 @@ impl Sums {
     }
 }
 
-/// True if a step of `dt` seconds is too long to be tried since the wheel stops in it, or has stopped in the one before, whose
+/// True if a step of `dt` seconds is too long to be tried since the wheel stops in it, or has stopped in the one before: its
 /// rim swings about the hub afterwards.
 fn stops(from: &State, dt: f64) -> bool {
     let omega = from.motion.omega;
@@ -308,11 +315,8 @@ fn march(
     let mut sums = Sums { pressing: state.pressing.begun(), ..Sums::default() };
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
+        place.meet_stop(from, ramp.h, tuning, tried);
         let dt = ramp.h / place.pieces as f64;
-        if tuning.tolerance > 0.0 && stops(from, dt) && place.may_halve(tuning, tried) {
-            place.halve();
-            continue;
-        }
         let interim = place.done + 1 < place.pieces;
         let [begin, target] = [place.done, place.done + 1].map(|done| ramp.at(done as f64 / place.pieces as f64));
         let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, interim, last_step };
