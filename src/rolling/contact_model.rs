@@ -228,7 +228,7 @@ impl ContactModel {
         friction: Friction,
         (number, layout): (usize, &LineLayout),
     ) -> LineProblem<'a> {
-        let ThermalDeformation { radius_growth, swelling, membrane_force } = start.deformation();
+        let ThermalDeformation { radius_growth, swelling, membrane_force, .. } = start.deformation();
         let (weakening, traction) = (start.weakening(), &start.contact.traction);
         let [distance, angle] = start.place(step.place);
         LineProblem {

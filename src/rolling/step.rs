@@ -77,15 +77,17 @@ pub fn step(
     next: &mut State,
 ) -> Result<bool, StepError> {
     let plan = Plan::new(model, state, demand, dt);
+    let (before, eased) = (state, eased(state, plan.dt));
+    let state = eased.as_deref().unwrap_or(state);
     if !attempt(model, state, demand, &plan, judge, workspace, next)? {
         return Ok(false);
     }
-    let mut again: Option<State> = None;
+    let mut again: Option<Box<State>> = None;
     for _ in 0..COOLER {
         if plan.dt > LONGEST_AGAIN * (1.0 + 1e-9) || !overheats(model, state, next) {
             break;
         }
-        let again = again.get_or_insert_with(|| state.clone());
+        let again = again.get_or_insert_with(|| boxed(state));
         for (line, found) in again.lines.iter_mut().zip(&next.lines) {
             if let (Some(thermal), Some(found)) = (&mut line.thermal, &found.thermal) {
                 thermal.weakening.film.clone_from(&found.weakening.film);
@@ -95,7 +97,28 @@ pub fn step(
             return Ok(false);
         }
     }
+    audit::expand(before, next);
     Ok(true)
+}
+
+/// The state in which a step of `dt` seconds begins whose hot layers lag, if it is shorter than the last one.
+fn eased(state: &State, dt: f64) -> Option<Box<State>> {
+    let share = dt / state.clock.last_step;
+    let lags = |line: &Line| line.deformation().lag > 0.0;
+    if share > 1.0 - 1e-9 || !share.is_finite() || !state.lines.iter().any(lags) {
+        return None;
+    }
+    let mut eased = boxed(state);
+    eased.lines.iter_mut().filter_map(|line| line.thermal.as_mut()).for_each(|thermal| thermal.deformation.ease(share));
+    Some(eased)
+}
+
+/// A copy on the heap: states are large, and hosts may have small stacks.
+#[inline(never)]
+fn boxed(state: &State) -> Box<State> {
+    let mut copy = Box::<State>::default();
+    (*copy).clone_from(state);
+    copy
 }
 
 /// True if friction has heated the contact beyond what a molten film lets it: within a step the film is that of its
@@ -142,9 +165,7 @@ fn heat(
     scratch: &mut ThermalScratch,
     next: &mut State,
 ) -> Result<(), StepError> {
-    let brake_power = (next.audit.brake - state.audit.brake) / dt;
-    let supply = HeatSupply { drive: demand.target, brake_power, narrowing: model.narrowing(next) };
-    let step = HeatStep { dt, interim: demand.interim, supply, criteria: thermal::criteria(demand.tuning) };
+    let step = heat_step(model, state, demand, dt, next);
     next.tread_point = demand.tuning.tread_point;
     let taken: Vec<_> = next.lines.iter_mut().map(|line| line.thermal.take().unwrap_or_default()).collect();
     if let Some(thermal) = &model.thermal {
@@ -161,8 +182,33 @@ fn heat(
     }
     spreading::spread(model, state, dt, next)?;
     thermal::share_growth(&mut next.lines);
-    audit::expand(state, next);
     Ok(())
+}
+
+/// The heat step from a `state` to the `next` one, whose motion is known.
+fn heat_step<'a>(model: &RollingModel, state: &State, demand: &Demand<'a>, dt: f64, next: &State) -> HeatStep<'a> {
+    let brake_power = (next.audit.brake - state.audit.brake) / dt;
+    let supply = HeatSupply { drive: demand.target, brake_power, narrowing: model.narrowing(next) };
+    HeatStep { dt, interim: demand.interim, supply, criteria: thermal::criteria(demand.tuning) }
+}
+
+/// Adds the history of the material to the state `next` that the last [`step`], one of `dt` seconds, led to from `state`: once it
+/// is known that it counts.
+pub fn remember(
+    model: &RollingModel,
+    state: &State,
+    demand: &Demand,
+    dt: f64,
+    workspace: &mut Workspace,
+    next: &mut State,
+) {
+    let Some(thermal) = &model.thermal else { return };
+    let step = heat_step(model, state, demand, dt, next);
+    let lines =
+        state.lines.iter().zip(&mut next.lines).filter_map(|(before, line)| {
+            Some((before.thermal.as_ref()?, &line.contact.traction, line.thermal.as_mut()?))
+        });
+    thermal.remember(lines, &next.motion, step, &mut workspace.heat);
 }
 
 impl Plan {

@@ -26,9 +26,10 @@ const FINEST: f64 = 1e-5;
 /// Internal step in which contact is made or lost that errors alone do not halve any further \[s]: the force begins or
 /// ends somewhere within, and its energy errs by what it does on the way of the whole step.
 const STRIKE: f64 = 2e-6;
-/// Internal step that errors of the temperature alone do not halve any further [s]: shorter ones bring no better
-/// temperatures, since those of a hot sliding contact scatter by more than the default tolerance whatever the step.
-const WARMING: f64 = 2.5e-4;
+/// Internal step that errors of the temperature alone do not halve [s]: of a wheel that turns, and of one that its brake holds.
+/// Shorter ones bring no better temperatures, since those of a hot sliding contact scatter by as much whatever the step. When
+/// the wheel turns again, however, hot and cold places follow each other.
+const WARMING: [f64; 2] = [2.5e-4, 1e-3];
 /// Tolerance \[1] below which shorter steps than [`FINEST`] and [`STRIKE`] are taken, and the shortest of them over
 /// those \[1].
 const TOLERANCE: f64 = 2e-3;
@@ -148,7 +149,8 @@ impl<'a> Control<'a> {
 
 /// Error by which a step of `dt` seconds is judged \[1].
 fn error(found: &Found, dt: f64) -> f64 {
-    if dt > WARMING * (1.0 + 1e-9) { found.error.max(found.warming) } else { found.error }
+    let shortest = WARMING[usize::from(found.locked)];
+    if dt > shortest * (1.0 + 1e-9) { found.error.max(found.warming) } else { found.error }
 }
 
 #[cfg(test)]

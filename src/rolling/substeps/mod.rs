@@ -27,13 +27,13 @@ use super::elevation::HeightCourse;
 use super::error::StepError;
 use super::model::{RollingModel, Workspace};
 use super::state::{Pressing, State, StepControl};
-use super::step::{Demand, step};
+use super::step::{Demand, remember, step};
 use crate::axes::PerAxis;
 use crate::config::Tuning;
 use crate::heat::{HeatError, HeatFlows};
 use control::{Control, Verdict};
 use events::{condition, shortened};
-use prediction::{Found, controlled, may_melt};
+use prediction::{Found, SWING, controlled, may_melt};
 
 /// Longest communication step \[s].
 pub const LONGEST_STEP: f64 = 3600.0;
@@ -66,6 +66,13 @@ impl Place {
     /// True if all the rest may be halved after a number of steps `tried`.
     fn may_halve(&self, tuning: &Tuning, tried: u64) -> bool {
         tried + 2 * (self.pieces - self.done) <= tuning.max_internal_steps as u64
+    }
+
+    /// Halves a communication step of `h` seconds, after a number of steps `tried`, until the wheel stops in a short one.
+    fn meet_stop(&mut self, from: &State, h: f64, tuning: &Tuning, tried: u64) {
+        while tuning.tolerance > 0.0 && stops(from, h / self.pieces as f64) && self.may_halve(tuning, tried) {
+            self.halve();
+        }
     }
 
     fn halve(&mut self) {
@@ -242,6 +249,17 @@ impl Sums {
     }
 }
 
+/// True if a step of `dt` seconds is too long to be tried since the wheel stops in it, or has stopped in the one before: its
+/// rim swings about the hub afterwards.
+fn stops(from: &State, dt: f64) -> bool {
+    let omega = from.motion.omega;
+    let (stopped, stopping) = match from.hub.brake.locked {
+        true => (omega.before != 0.0, false),
+        false => (false, from.hub.brake.moment * omega.now < 0.0 && omega.now * (omega.now + dt * omega.rate) < 0.0),
+    };
+    (stopped || stopping) && dt > 2.0 * SWING * (1.0 + 1e-9)
+}
+
 /// True if a shorter step may succeed where one has failed with this error.
 fn shorter_may_succeed(error: &StepError) -> bool {
     matches!(
@@ -297,6 +315,7 @@ fn march(
     let mut sums = Sums { pressing: state.pressing.begun(), ..Sums::default() };
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
+        place.meet_stop(from, ramp.h, tuning, tried);
         let dt = ramp.h / place.pieces as f64;
         let interim = place.done + 1 < place.pieces;
         let [begin, target] = [place.done, place.done + 1].map(|done| ramp.at(done as f64 / place.pieces as f64));
@@ -319,6 +338,7 @@ fn march(
             continue;
         }
         found.check(model)?;
+        remember(model, from, &demand, dt, workspace, next);
         control.memory.before = controlled(model, from);
         (place.done, failures) = (place.done + 1, 0);
         if place.done < place.pieces && ramp.stop.is_some_and(|stop| stop(next)) {

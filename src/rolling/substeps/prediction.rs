@@ -9,8 +9,8 @@
 //! |---|---|
 //! | contact forces x, y, z | nominal load P |
 //! | contact moment about the hub | P r |
-//! | mean slip of the tread in the patch, x and z | `(a/r)(V + a/Δt)`, or the slip itself where that is more |
-//! | mean temperatures of wheel and rail in the patch | 100 K, or the temperature rise where that is more |
+//! | mean slip of the tread in the patch, x and z | `(a/r)(V + a/Δt)`, or the slip itself where that is more; 2.5 times the slip in a short step in which the brake has just locked |
+//! | mean temperatures of wheel and rail in the patch | 100 K, or 2.5 times the temperature rise where that is more; without the 2.5 on a tread with dents |
 //!
 //! A wheel in the air has no contact forces. What acts on it besides its load are the damper and its own deformation,
 //! which rings after a strike or a release and keeps some of its energy. So where the forces on the hub are given, what
@@ -31,6 +31,15 @@ use crate::rolling::state::{Controlled, State};
 
 /// Temperature change that counts as much as the nominal load, unless the contact is hotter [K].
 const WARM: f64 = 100.0;
+
+/// Share of a temperature rise whose error counts as much as that of the same share of the nominal load, inverted \[1]: half a
+/// per cent of it at the default tolerance. Likewise of the slip in the first step of a locked wheel, in which the whole change
+/// counts and not what a line misses, if it is not longer than [`SWING`]. A tread with dents has hot spots that come and go:
+/// there it is one.
+const OWN: f64 = 2.5;
+
+/// Step that follows the rim of a wheel whose brake has just locked, while it swings about the hub \[s].
+pub const SWING: f64 = 2.5e-4;
 
 /// Distance to the temperature without friction from which on a step may melt the contact [K].
 const NEARLY_MOLTEN: f64 = 100.0;
@@ -88,6 +97,8 @@ pub struct Found {
     pub dented: bool,
     /// Contact was made or lost in it.
     pub strikes: bool,
+    /// True if the brake holds the wheel at the end.
+    pub locked: bool,
     /// True if it was the first step after a jump of the inputs: it has no history.
     pub first: bool,
     /// True if it was longer than the step before.
@@ -132,8 +143,10 @@ impl Found {
             ];
             let half_width = model.contact.nominal_half_width();
             let speed = 0.5 * (found.velocity.abs() + (radius * found.omega).abs());
+            let swings = first && to.hub.brake.locked && dt <= SWING * (1.0 + 1e-9);
+            let own = if swings { OWN } else { 1.0 };
             let scale =
-                (half_width / radius * (speed + half_width / dt)).max(libm::hypot(found.slip[0], found.slip[1]));
+                (half_width / radius * (speed + half_width / dt)).max(own * libm::hypot(found.slip[0], found.slip[1]));
             for (k, explained) in explained.into_iter().enumerate() {
                 error = error.max((missed(&|c| c.slip[k]).abs() - explained.abs()) / scale);
             }
@@ -141,7 +154,8 @@ impl Found {
         let yields = to.lines.iter().any(|line| line.contact.traction.yielding.share > 0.0);
         let dented = to.lines.iter().any(|line| line.flattening[0].is_dented());
         let strikes = from.touches() != to.touches();
-        Self { error, yields, dented, strikes, first, doubled: ratio > 1.5, ratio, ..Self::default() }
+        let locked = to.hub.brake.locked;
+        Self { error, yields, dented, strikes, locked, first, doubled: ratio > 1.5, ratio, ..Self::default() }
     }
 
     /// Adds what the heat of the same step tells.
@@ -151,9 +165,10 @@ impl Found {
         // Nor is there a temperature of a patch without one.
         if from.touches() && to.touches() {
             let (now, found) = (temperatures(from), temperatures(to));
+            let own = if self.dented { 1.0 } else { OWN };
             for body in 0..2 {
                 let missed = missed([&before.temperatures, &now, &found], self.ratio, &|rises| rises[body]);
-                warming = warming.max(missed.abs() / WARM.max(found[body].abs()));
+                warming = warming.max(missed.abs() / WARM.max(own * found[body].abs()));
             }
         }
         let (rise, hottest) = (hottest(to) - hottest(from), thermal.reference() + hottest(to));

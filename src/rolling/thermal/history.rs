@@ -1,8 +1,8 @@
 //! The history of the wheel's material beside the temperatures of the contact.
 
-use super::exchange::ThermalContact;
 use super::sources::HeatStep;
 use crate::config::{Config, Tuning};
+use crate::contact::Traction;
 use crate::damage::{ConductionScratch, Criteria, Damage, HotSpots, SpotLayout, TreadStep};
 use crate::heat::{HeatModel, HeatState, Observation};
 use crate::piecewise::interpolate;
@@ -64,12 +64,12 @@ impl MaterialHistory {
         &self,
         damage: &mut Damage,
         motion: &Motion,
-        contact: &ThermalContact,
+        traction: &Traction,
         seen: &ObservedStep,
         scratch: &mut ConductionScratch,
     ) {
         let temperatures = &seen.observation.temperatures;
-        let patch = contact.traction.extent();
+        let patch = traction.extent();
         let moment = TreadStep {
             dt: seen.step.dt,
             interim: seen.step.interim,

@@ -20,7 +20,7 @@ use super::profile::{PROFILE_POINTS, profile_points};
 use super::state::Motion;
 use super::thermal_state::{ThermalDeformation, ThermalState, Weakening};
 use crate::config::Config;
-use crate::contact::{ContactState, Heating};
+use crate::contact::{ContactState, Heating, Traction};
 use crate::damage::ConductionScratch;
 use crate::heat::{
     Exchange, Heat, HeatConfig, HeatError, HeatLine, HeatModel, HeatScratch, Observation, TemperatureField,
@@ -43,11 +43,11 @@ use weakening::WeakSteel;
 const OVERHEATING: f64 = 50.0;
 
 /// Length of a step in which the deformation of a very hot contact goes half of the way to its new value, times the
-/// expansion coefficient \[s/K]; 0.2 ms for steel. In steps of h it goes the share `1/(1 + h/`this`)`. Where the edge
+/// expansion coefficient \[s/K]; 0.33 ms for steel. In steps of h it goes the share `1/(1 + h/`this`)`. Where the edge
 /// of the patch cools the steel that it touches, the steel shrinks, the edge recedes, and steel warms and swells again,
 /// one step later: a feedback from one step to the next of about −7 per millisecond for steel, measured, and
-/// proportional to the expansion. It flips beyond `2/(1 + 7 h/ms)`.
-const DAMPED: f64 = 2.4e-9;
+/// proportional to the expansion. It flips beyond `3.5/(2.5 + 7 h/ms)`.
+const DAMPED: f64 = 3.9e-9;
 
 /// Excess temperature of the hotter surface up to which the depth of the heat does not smooth its swelling \[K].
 /// Flashes of quiet rolling swell by nanometres, whatever their depth, and it changes with every step.
@@ -83,7 +83,9 @@ pub struct ThermalScratch {
     heat: HeatScratch,
     /// Exchange of each line.
     exchanges: Vec<Exchange>,
-    view: ThermalView,
+    /// Observation of each line after the last step.
+    seen: Vec<Observation>,
+    smoothing: [Smoothing; 2],
     history: ConductionScratch,
 }
 
@@ -95,13 +97,6 @@ pub struct ThermalLine<'a> {
     pub contact: ThermalContact<'a>,
     /// Temperatures at the end, to be replaced; their memory is reused.
     pub thermal: ThermalState,
-}
-
-/// Observation of a state, and the smoothing of its swelling.
-#[derive(Default)]
-struct ThermalView {
-    seen: Observation,
-    smoothing: [Smoothing; 2],
 }
 
 /// Refuses, before any memory is taken, a configuration on whose mesh [`ThermalModel::new`] would fail: too many
@@ -205,14 +200,15 @@ impl ThermalModel {
 
     /// All of a start that follows from its temperature fields.
     fn begun(&self, contact: &ThermalContact, mut thermal: ThermalState) -> Result<ThermalState, StepError> {
-        let mut view = ThermalView::default();
-        self.observe(contact, f64::INFINITY, &mut thermal, &mut view)?;
-        thermal.damage = self.history.begin(&view.seen);
+        let (mut seen, mut smoothing) = Default::default();
+        self.observe(contact, f64::INFINITY, &mut thermal, (&mut seen, &mut smoothing))?;
+        thermal.damage = self.history.begin(&seen);
         thermal.heating.before = thermal.heating.now;
         Ok(thermal)
     }
 
-    /// The heat step of all lines that belongs to a mechanical step with the `motion` at its end.
+    /// The heat step of all lines that belongs to a mechanical step with the `motion` at its end. What it means for the
+    /// material waits for [`Self::remember`].
     pub fn step(
         &self,
         lines: &mut [ThermalLine],
@@ -221,7 +217,7 @@ impl ThermalModel {
         scratch: &mut ThermalScratch,
     ) -> Result<(), StepError> {
         let HeatStep { dt, supply, .. } = step;
-        let ThermalScratch { heat, exchanges, .. } = scratch;
+        let ThermalScratch { heat, exchanges, seen, smoothing, .. } = scratch;
         exchanges.resize_with(lines.len().max(exchanges.len()), Exchange::default);
         for (line, exchange) in lines.iter().zip(&mut *exchanges) {
             line.contact.fill(&line.before.weakening.film, exchange);
@@ -233,43 +229,46 @@ impl ThermalModel {
         let mut fields: Vec<_> = fields.collect();
         self.heat.step(&mut fields, dt, motion.velocity.now, motion.omega.now, heat)?;
         let flows: Vec<_> = fields.into_iter().map(|field| field.flows).collect();
-        for (line, flows) in lines.iter_mut().zip(flows) {
+        seen.resize_with(lines.len().max(seen.len()), Observation::default);
+        for ((line, flows), seen) in lines.iter_mut().zip(flows).zip(seen) {
             line.thermal.flows = flows;
-            self.follow(line, motion, step, scratch)?;
+            self.follow(line, (dt, motion.omega.now != 0.0), (seen, smoothing))?;
         }
         Ok(())
+    }
+
+    /// Takes the history of the material under the lines on by the last step, from the temperatures `before`.
+    pub fn remember<'a>(
+        &self,
+        lines: impl Iterator<Item = (&'a ThermalState, &'a Traction, &'a mut ThermalState)>,
+        motion: &Motion,
+        step: HeatStep,
+        scratch: &mut ThermalScratch,
+    ) {
+        let ThermalScratch { seen, history, .. } = scratch;
+        for ((before, traction, thermal), observation) in lines.zip(seen) {
+            thermal.damage.copy_from(&before.damage);
+            let field = (&*self.heat, &thermal.fields);
+            let seen = ObservedStep { step, field, observation, zone: self.heat.zone_x() };
+            self.history.advance(&mut thermal.damage, motion, traction, &seen, history);
+        }
     }
 
     /// Fills all that follows from the temperature fields of a line after a step.
     fn follow(
         &self,
         line: &mut ThermalLine,
-        motion: &Motion,
-        step: HeatStep,
-        scratch: &mut ThermalScratch,
+        (dt, turns): (f64, bool),
+        view: (&mut Observation, &mut [Smoothing; 2]),
     ) -> Result<(), StepError> {
-        let dt = step.dt;
-        let ThermalScratch { view, history, .. } = scratch;
         let ThermalLine { before, contact, thermal } = line;
         thermal.weakening.film.clone_from(&before.weakening.film);
         self.observe(contact, dt, thermal, view)?;
         thermal.heating.before = before.heating.now;
         thermal.melted = thermal.temperatures.melted.iter().copied().fold(before.melted, f64::max);
-        thermal.damage.copy_from(&before.damage);
-        let seen = ObservedStep {
-            step,
-            field: (&*self.heat, &thermal.fields),
-            observation: &view.seen,
-            zone: self.heat.zone_x(),
-        };
-        self.history.advance(&mut thermal.damage, motion, contact, &seen, history);
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
-        if hottest > SOFTENS {
-            // The layers alone: growth held back in long steps would press the wheel onto the rail in the next short one.
-            let growth = thermal.deformation.radius_growth;
-            thermal.deformation.average(&before.deformation, 1.0 / (1.0 + dt * self.thermal_expansion / DAMPED));
-            thermal.deformation.radius_growth = growth;
-        }
+        let lag = if hottest > SOFTENS { dt * dt * self.thermal_expansion / DAMPED } else { 0.0 };
+        thermal.deformation.relax(&before.deformation, (dt, turns), lag);
         let [sum, amount] = thermal.flows.balance();
         thermal.unaccounted = before.unaccounted + dt * sum;
         thermal.turned_over = before.turned_over + dt * amount;
@@ -282,9 +281,8 @@ impl ThermalModel {
         contact: &ThermalContact,
         dt: f64,
         thermal: &mut ThermalState,
-        view: &mut ThermalView,
+        (seen, smoothing): (&mut Observation, &mut [Smoothing; 2]),
     ) -> Result<(), StepError> {
-        let ThermalView { seen, smoothing } = view;
         let zone = self.heat.zone_x();
         self.heat.observe(&thermal.fields, seen)?;
         if contact.reversible.iter().any(|surface| !surface.is_empty()) {
@@ -353,6 +351,7 @@ impl ThermalModel {
         self.heat.fits(&thermal.fields)
             && self.history.fits(&thermal.damage)
             && thermal.surface.iter().all(|surface| surface.len() == PROFILE_POINTS)
+            && deformation.acted.iter().flatten().all(|value| value.is_finite())
             && profiles.clone().all(|profile| profile.check().is_ok())
     }
 

@@ -110,6 +110,11 @@ impl HeatLayout {
         &self.rail.streamline.nodes[self.zone_nodes(&self.rail)]
     }
 
+    /// Length of the elements inside the contact \[m].
+    pub fn element(&self) -> f64 {
+        element(&self.config)
+    }
+
     /// Number of elements of the contact zone.
     pub fn zone_elements(&self) -> usize {
         2 * self.zone_cells
@@ -134,9 +139,13 @@ impl HeatLayout {
     }
 }
 
+fn element(c: &HeatConfig) -> f64 {
+    c.smallest_half_width() / c.elements_per_half_width as f64
+}
+
 /// Nodes of the contact zone from the contact point outwards: finest at the edge of the nominal contact.
 fn zone_nodes(c: &HeatConfig) -> Vec<f64> {
-    let spacing = c.smallest_half_width() / c.elements_per_half_width as f64;
+    let spacing = element(c);
     let inside = graded(EDGE * spacing, EDGE_GROWTH, spacing, c.half_width);
     let mut nodes: Vec<f64> = inside.iter().rev().map(|s| c.half_width - s).collect();
     if c.zone > c.half_width {

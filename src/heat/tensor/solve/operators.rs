@@ -47,7 +47,7 @@ impl StageKey {
 }
 
 /// Velocities of the streams of wheel and rail at the speeds V and Ω [m/s].
-fn streams(layout: &HeatLayout, [velocity, omega]: [f64; 2]) -> [f64; 2] {
+pub fn streams(layout: &HeatLayout, [velocity, omega]: [f64; 2]) -> [f64; 2] {
     [-omega * layout.config.wheel.radius, -velocity]
 }
 

@@ -123,7 +123,7 @@ fn prepare(
     let now = loads.boundary(speeds);
     line.next.arriving = state.arriving;
     line.next.data = data(layout, state, exchange);
-    let smooth = state.last.is_some_and(|before| !jumps(&before, &now));
+    let smooth = state.last.is_some_and(|before| !jumps(layout, &before, &now, dt));
     let (excess, melts) = (exchange.friction_excess, heat.melting_within(state.range).is_some());
     own.plan = StepPlan { dt, speeds, excess, smooth, melts, now, contact: [0; 2] };
     Ok(())

@@ -1,6 +1,8 @@
 //! Comparison of a step with the one before.
 
 use crate::heat::state::{BoundaryState, HeatState};
+use crate::heat::tensor::mesh::layout::HeatLayout;
+use crate::heat::tensor::solve::operators::streams;
 
 /// Relative change of speeds, conductance or heat from one step to the next that counts as a jump.
 const JUMP: f64 = 0.3;
@@ -25,12 +27,15 @@ fn rounded(value: f64) -> f64 {
     f64::from_bits((value.to_bits() + (1 << (rest - 1))) >> rest << rest)
 }
 
-/// Test that speeds, conductance or heat change so much from `before` to `next` that a step cannot continue smoothly.
-pub fn jumps(before: &BoundaryState, next: &BoundaryState) -> bool {
+/// Test that speeds, conductance or heat change so much from `before` to `next`, in a step of `dt` \[s], that it cannot
+/// continue smoothly. A speed does not by which the stream carries material less than an element farther than before.
+pub fn jumps(layout: &HeatLayout, before: &BoundaryState, next: &BoundaryState, dt: f64) -> bool {
     let jump = |a: f64, b: f64| (a - b).abs() > JUMP * a.abs().max(b.abs());
     let change: f64 = before.heat.iter().zip(&next.heat).map(|(a, b)| (a - b).abs()).sum();
     let larger = before.heat.iter().sum::<f64>().max(next.heat.iter().sum());
-    before.speeds.iter().zip(&next.speeds).any(|(a, b)| jump(*a, *b))
+    let streams = [before, next].map(|state| streams(layout, state.speeds));
+    let stream = |i: usize| (streams[0][i], streams[1][i]);
+    [0, 1].map(stream).into_iter().any(|(a, b)| jump(a, b) && (a - b).abs() * dt > layout.element())
         || jump(before.conductance, next.conductance)
         || change > SLIGHT_HEAT + JUMP * larger
 }
