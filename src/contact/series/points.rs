@@ -110,8 +110,8 @@ vectorised! {
         let ([convection, rate], mut slips) = (rates, [[0.0; COUNT]; COUNT]);
         for (j, slips) in slips.iter_mut().enumerate() {
             let total = rate * tables.terms[0][j] * size;
-            for i in 0..COUNT {
-                slips[i] = convection * tables.cauchy[j][i] + (rate * tables.logarithm[j][i] + total);
+            for ((slip, cauchy), logarithm) in slips.iter_mut().zip(&tables.cauchy[j]).zip(&tables.logarithm[j]) {
+                *slip = convection * cauchy + (rate * logarithm + total);
             }
         }
         slips
