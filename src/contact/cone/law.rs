@@ -63,10 +63,59 @@ pub struct ConeVerdict<const N: usize> {
 }
 
 vectorised! {
-    /// Adds slips of all points by given strengths of something.
-    fn add_slips<'a, S, const N: usize>(_simd, by: &'a [[f64; N]], strengths: &'a [f64], slips: &'a mut [f64; N]) {
-        for (by, strength) in by.iter().zip(strengths) {
-            slips.iter_mut().zip(by).for_each(|(slip, by)| *slip += by * strength);
+    /// Adds slips of all points by a shear and by coefficients of polynomials along and across.
+    fn add_slips<'a, S, const N: usize>(
+        _simd,
+        rows: &'a SlipRows<N>,
+        shear: &'a AlongAcross<N>,
+        others: [&'a [f64]; 2],
+        slips: &'a mut AlongAcross<N>,
+    ) {
+        for c in 0..2 {
+            let mut sum = slips[c];
+            for (by, strength) in rows.by_shear[c].iter().zip(&shear[c]) {
+                for i in 0..N {
+                    sum[i] += by[i] * strength;
+                }
+            }
+            for (by, strength) in rows.powers.iter().zip(others[c]) {
+                for i in 0..N {
+                    sum[i] += by[i] * strength;
+                }
+            }
+            slips[c] = sum;
+        }
+    }
+}
+
+vectorised! {
+    /// Moments of a shear along, then across, given those of the shear of every point.
+    fn moments<'a, S, const N: usize>(_simd, by_shear: &'a [[f64; N]], shear: &'a AlongAcross<N>) -> [f64; SLIPS] {
+        let mut moments = [0.0; SLIPS];
+        for (c, shear) in shear.iter().enumerate() {
+            let (shear, shear_rest) = shear.as_chunks::<4>();
+            for (moment, by) in moments[POINTS * c..].iter_mut().zip(by_shear) {
+                let ((by, by_rest), mut sums) = (by.as_chunks::<4>(), [0.0; 4]);
+                for (by, shear) in by.iter().zip(shear) {
+                    for l in 0..4 {
+                        sums[l] += by[l] * shear[l];
+                    }
+                }
+                *moment = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+                for (by, shear) in by_rest.iter().zip(shear_rest) {
+                    *moment += by * shear;
+                }
+            }
+        }
+        moments
+    }
+}
+
+vectorised! {
+    /// Moves values to others by a share of what lies between.
+    fn mix<'a, S>(_simd, values: &'a mut [f64], others: &'a [f64], share: f64) {
+        for (value, other) in values.iter_mut().zip(others) {
+            *value += share * (other - *value);
         }
     }
 }
@@ -74,9 +123,6 @@ vectorised! {
 impl<const N: usize> SlipRows<N> {
     /// Mean with others, which have a `share`.
     pub fn mean(mut self, other: &Self, share: f64) -> Self {
-        fn mix(values: &mut [f64], others: &[f64], share: f64) {
-            values.iter_mut().zip(others).for_each(|(value, other)| *value += share * (other - *value));
-        }
         for (by, other) in self.by_shear.iter_mut().zip(&other.by_shear) {
             mix(by.as_flattened_mut(), other.as_flattened(), share);
         }
@@ -87,23 +133,15 @@ impl<const N: usize> SlipRows<N> {
 
     /// Slips by a shear alone [m/s].
     pub fn slips_of(&self, shear: &AlongAcross<N>) -> AlongAcross<N> {
-        self.beside([[0.0; N]; 2], shear)
-    }
-
-    /// Slips by a shear beside given ones.
-    fn beside(&self, mut slips: AlongAcross<N>, shear: &AlongAcross<N>) -> AlongAcross<N> {
-        for ((slips, by_shear), shear) in slips.iter_mut().zip(&self.by_shear).zip(shear) {
-            add_slips(by_shear, shear, slips);
-        }
+        let mut slips = [[0.0; N]; 2];
+        add_slips(self, shear, [&[]; 2], &mut slips);
         slips
     }
 
     /// Slips by a shear and by all else as polynomials [m/s].
     pub fn slips(&self, shear: &AlongAcross<N>, others: &[f64; SLIPS]) -> AlongAcross<N> {
-        let mut slips = self.beside(self.known, shear);
-        for (slips, others) in slips.iter_mut().zip(others.as_chunks::<POINTS>().0) {
-            add_slips(&self.powers, others, slips);
-        }
+        let (mut slips, (along, across)) = (self.known, others.split_at(POINTS));
+        add_slips(self, shear, [along, across], &mut slips);
         slips
     }
 }
@@ -128,7 +166,7 @@ impl<const N: usize> ConeProblem<N> {
 
     /// Moments [N/m] of a shear with the powers along, then across.
     pub fn moments(&self, shear: &AlongAcross<N>) -> [f64; SLIPS] {
-        std::array::from_fn(|k| self.moments[k % POINTS].iter().zip(&shear[k / POINTS]).map(|(by, q)| by * q).sum())
+        moments(&self.moments, shear)
     }
 
     /// Shears within the disc that come next to the given ones, which belong to a friction `ratio` times smaller.

@@ -2,7 +2,6 @@
 
 use super::law::{AlongAcross, ConeProblem, ConeVerdict, PointState, SLIPS};
 use crate::axes::{Axis, PerAxis};
-use crate::contact::flexibility::polynomial;
 use crate::linalg::vectorised::vectorised;
 use crate::linalg::{DenseSystem, POINTS};
 
@@ -216,10 +215,9 @@ impl<const N: usize> Linearised<N> {
         system.reset(all + motions.len());
         for at in 0..count {
             for (by, line) in lines.iter().enumerate() {
-                let slips = line.moments.map(|moments| polynomial(&between[count * at + by], &moments));
-                for p in 0..SLIPS {
-                    let (row, _) = system.row(SLIPS * at + p);
-                    row[SLIPS * by..][..SLIPS].iter_mut().zip(&slips).for_each(|(value, slips)| *value = slips[p]);
+                let slips = slips_by_slips(&between[count * at + by], &line.moments);
+                for (p, slips) in slips.iter().enumerate() {
+                    system.row(SLIPS * at + p).0[SLIPS * by..][..SLIPS].copy_from_slice(slips);
                 }
             }
             for p in 0..SLIPS {
@@ -279,6 +277,34 @@ impl<const N: usize> Linearised<N> {
             }
         }
         Some((changes, moved.to_vec()))
+    }
+}
+
+vectorised! {
+    /// Coefficients of slips, row by row, that a line takes from units of those of another one, with the moments of whose
+    /// shear these come.
+    fn slips_by_slips<'a, S>(
+        _simd,
+        between: &'a [[f64; SLIPS]; SLIPS],
+        moments: &'a [[f64; SLIPS]; SLIPS],
+    ) -> [[f64; SLIPS]; SLIPS] {
+        let (mut by_moment, mut slips) = ([[0.0; SLIPS]; SLIPS], [[0.0; SLIPS]; SLIPS]);
+        for m in 0..SLIPS {
+            for k in 0..SLIPS {
+                by_moment[m][k] = moments[k][m];
+            }
+        }
+        for (p, slips) in slips.iter_mut().enumerate() {
+            let mut sums = [0.0; SLIPS];
+            for m in 0..SLIPS {
+                let by = between[m][p];
+                for k in 0..SLIPS {
+                    sums[k] += by * by_moment[m][k];
+                }
+            }
+            *slips = sums;
+        }
+        slips
     }
 }
 

@@ -70,9 +70,9 @@ fn joined([along, across]: [ByPowers; 2]) -> [f64; SLIPS] {
 }
 
 impl SeriesContact<'_> {
-    /// Slips of a line along and across by unit moments of the shear of another one.
-    pub fn slips_askew(&self, [at, by]: [usize; 2]) -> [[f64; SLIPS]; SLIPS] {
-        let (along, line) = (self.slips_between([at, by]), &self.lines[at]);
+    /// Slips of a line along and across by unit moments of the shear of another one, given [`Self::slips_by_bodies`].
+    fn slips_askew(&self, by_bodies: &ByMoments, [at, by]: [usize; 2]) -> [[f64; SLIPS]; SLIPS] {
+        let (along, line) = (self.slips_through(by_bodies, [at, by]), &self.lines[at]);
         let [rate, strain] = line.slip_of_field();
         let patch = line.problem.line.patch;
         let [across, askew]: [ByMoments; 2] =
@@ -92,9 +92,9 @@ impl SeriesContact<'_> {
     /// Coupling of all lines and free motions under the present pressures.
     pub fn coupling(&self) -> TangentialCoupling {
         let (count, resultant) = (self.lines.len(), self.resultant());
-        let first = &self.lines[0];
+        let (first, by_bodies) = (&self.lines[0], self.slips_by_bodies());
         TangentialCoupling {
-            between: (0..count * count).map(|k| self.slips_askew([k / count, k % count])).collect(),
+            between: (0..count * count).map(|k| self.slips_askew(&by_bodies, [k / count, k % count])).collect(),
             motions: self.free_axes().map(|axis| self.free_motion(axis, resultant[axis])).collect(),
             base: first.rigid,
             radius: first.problem.line.radius(),
@@ -105,23 +105,14 @@ impl SeriesContact<'_> {
 
     /// A motion under a contact `force` without shear [N/m, N].
     fn free_motion(&self, axis: Axis, force: f64) -> FreeMotion {
-        let unit = |k: usize| -> [f64; SLIPS] { std::array::from_fn(|n| if n == k { 1.0 } else { 0.0 }) };
         FreeMotion {
             axis,
             slips: self.lines.iter().map(|line| line.slips_by_motion(axis)).collect(),
-            pulls: (0..self.lines.len())
-                .map(|line| std::array::from_fn(|k| self.pull_of(axis, line, &unit(k))))
-                .collect(),
+            pulls: (0..self.lines.len()).map(|line| joined(self.pulls(axis, line))).collect(),
             resistance: PerAxis::from_fn(|other| self.inertia(axis, other) * self.rigid[other].gain),
             missing: -self.unbalance(axis, force),
             drawn: [0.0; 2],
         }
-    }
-
-    /// Part of a shear of a line in the balance of a motion \[N/m, N], given its moments along, then across.
-    fn pull_of(&self, axis: Axis, line: usize, moments: &[f64; SLIPS]) -> f64 {
-        let along: ByPowers = std::array::from_fn(|p| moments[p]);
-        self.pull(axis, line, [moments[0], moments[POINTS]], &along)
     }
 }
 

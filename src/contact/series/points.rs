@@ -9,6 +9,7 @@
 use super::chebyshev::{TERMS, cauchy_terms, logarithm_terms};
 use super::equations::{Coefficients, ROOM, eliminate};
 use crate::linalg::POINTS;
+use crate::linalg::vectorised::vectorised;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Number of points: that of the terms of a traction.
@@ -85,11 +86,7 @@ impl PointTables {
     /// Slips [m/s/Pa] by shear at every point of a patch of half-width `half` \[m]: `convection` times the Cauchy integrals
     /// over π, and `rate` times the logarithmic ones, of which the line takes those at its `reach` away.
     pub fn slips_by_shear(&self, [convection, rate]: [f64; 2], [half, reach]: [f64; 2]) -> [[f64; COUNT]; COUNT] {
-        let size = FRAC_PI_2 * (libm::log(half) - reach);
-        std::array::from_fn(|j| {
-            let total = self.terms[0][j] * size;
-            std::array::from_fn(|i| convection * self.cauchy[j][i] + rate * (self.logarithm[j][i] + total))
-        })
+        mixed_slips(self, [convection, rate], FRAC_PI_2 * (libm::log(half) - reach))
     }
 
     /// Terms of the traction with values `q` at the points; the leading edge lies at `t = upstream`.
@@ -99,6 +96,25 @@ impl PointTables {
             sign *= upstream;
             if k < COUNT { sign * self.terms[k].iter().zip(q).map(|(by, q)| by * q).sum::<f64>() } else { 0.0 }
         })
+    }
+}
+
+vectorised! {
+    /// See [`PointTables::slips_by_shear`]; a unit of the first term has the logarithm `size` besides.
+    fn mixed_slips<'a, S>(
+        _simd,
+        tables: &'a PointTables,
+        rates: [f64; 2],
+        size: f64,
+    ) -> [[f64; COUNT]; COUNT] {
+        let ([convection, rate], mut slips) = (rates, [[0.0; COUNT]; COUNT]);
+        for (j, slips) in slips.iter_mut().enumerate() {
+            let total = rate * tables.terms[0][j] * size;
+            for ((slip, cauchy), logarithm) in slips.iter_mut().zip(&tables.cauchy[j]).zip(&tables.logarithm[j]) {
+                *slip = convection * cauchy + (rate * logarithm + total);
+            }
+        }
+        slips
     }
 }
 

@@ -115,14 +115,13 @@ impl SeriesContact<'_> {
         }
     }
 
-    /// Part of a shear of a line in the balance of a motion \[N/m, N], given its forces along and across [N/m] and its
-    /// moments along with the powers of the places.
-    pub fn pull(&self, axis: Axis, line: usize, [along, across]: [f64; 2], moments: &ByPowers) -> f64 {
-        if axis == Axis::Lateral {
-            return self.lines[line].problem.line.share * across;
-        }
-        let by = self.pull_along(axis, line);
-        by.force * along - by.moments.iter().zip(moments).map(|(by, moment)| by * moment).sum::<f64>()
+    /// Parts of unit moments of the shear of a line, along and across, in the balance of a motion \[1, m].
+    pub fn pulls(&self, axis: Axis, line: usize) -> [ByPowers; 2] {
+        let Pull { force, moments } = self.pull_along(axis, line);
+        let (mut along, mut across) = (moments.map(|by| -by), ByPowers::default());
+        along[0] += force;
+        across[0] = if axis == Axis::Lateral { self.lines[line].problem.line.share } else { 0.0 };
+        [along, across]
     }
 
     /// Part of a shear along of a line in the balance of a motion.
@@ -139,7 +138,7 @@ impl SeriesContact<'_> {
 
     /// Slips of a line by what unit moments of shear with the powers of `x/reach`, per metre of the bodies' width, do to the
     /// bodies, as polynomials of `x/reach` [m/s/(N/m)].
-    fn slips_by_bodies(&self) -> ByMoments {
+    pub fn slips_by_bodies(&self) -> ByMoments {
         let (line, [wheel, rail]) = (&self.lines[0], &self.by_powers);
         let (v, rim, a0, reach) =
             (line.rigid.travel, line.rim_velocity(), line.problem.line.time.a0, line.constants.points.reach);
@@ -151,13 +150,8 @@ impl SeriesContact<'_> {
         })
     }
 
-    /// Slips of a line by unit moments of the shear of another one.
-    pub fn slips_between(&self, lines: [usize; 2]) -> ByMoments {
-        self.slips_through(&self.slips_by_bodies(), lines)
-    }
-
-    /// [`Self::slips_between`], given [`Self::slips_by_bodies`].
-    fn slips_through(&self, by_bodies: &ByMoments, [at, by]: [usize; 2]) -> ByMoments {
+    /// Slips of a line by unit moments of the shear of another one, given [`Self::slips_by_bodies`].
+    pub fn slips_through(&self, by_bodies: &ByMoments, [at, by]: [usize; 2]) -> ByMoments {
         let (line, other) = (&self.lines[at], &self.lines[by]);
         let reach = line.constants.points.reach;
         let powers = |ratio: f64, first: f64| {
