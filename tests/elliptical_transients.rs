@@ -117,8 +117,7 @@ fn held(case: &Json, lines: usize, series: bool) -> Held {
 
 /// From Cattaneo's shift to Carter's rolling: on each line slip at the trailing edge breaks through to what the shift
 /// has left at the leading edge when the wheel has rolled by about the length of the line. With few lines that is felt
-/// one line after the other. Later the creepage of the reference, whose forces are too large by .005, is too small by 1 %;
-/// with nine moments in the place of five the difference is .0071 on 10 and .0097 on 13 lines.
+/// one line after the other. Later the creepage of the reference, whose forces are too large by .005, is too small by 1 %.
 #[test]
 fn creepage_under_a_held_force_develops_from_a_shift_to_rolling_as_by_contact() {
     let case = run_of_reference("held50");

@@ -173,8 +173,7 @@ fn nothing_slips_and_warms_where_it_sticks() {
 }
 
 /// Kalker's coefficients for ν = 0.3 of CONTACT on 61 × 41 elements, secants up to 1 % below the slope at rest: C₁₁, C₂₂, C₂₃
-/// and C₃₃. The last one is a matter of the lines: with nine moments in the place of five it is 3.2, 2.5 and −2.0 % off on
-/// seven lines, and 2.1, 1.3 and −2.5 % on nine.
+/// and C₃₃. The last one is 2.9, 1.9 and −2.7 % off on seven lines, .4, −1.0 and −4.8 % on 13.
 #[test]
 fn creep_coefficients_of_small_creepages_and_spins_are_those_of_kalker() {
     for (aspect, kalker) in KALKER {
