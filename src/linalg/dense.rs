@@ -73,12 +73,12 @@ impl DenseSystem {
         x.iter().all(|x| x.is_finite())
     }
 
-    /// [`Self::solve_with`] for right-hand sides side by side.
-    pub fn solve_with_all<const N: usize>(&self, x: &mut [[f64; N]]) -> bool {
+    /// [`Self::solve_with`] for D groups of N right-hand sides side by side.
+    pub fn solve_with_all<const D: usize, const N: usize>(&self, x: &mut [[[f64; N]; D]]) -> bool {
         substitute_all(&self.rows, x);
         let permuted = x.to_vec();
         self.order.iter().zip(&permuted).for_each(|(&to, value)| x[to] = *value);
-        x.as_flattened().iter().all(|x| x.is_finite())
+        x.as_flattened().as_flattened().iter().all(|x| x.is_finite())
     }
 }
 
@@ -155,11 +155,16 @@ vectorised! {
 
 vectorised! {
     /// `X ← U⁻¹ L⁻¹ X` with the factors of a matrix, both by rows.
-    fn substitute_all<'a, S, const N: usize>(_simd, factors: &'a [f64], x: &'a mut [[f64; N]]) {
+    fn substitute_all<'a, S, const D: usize, const N: usize>(
+        _simd,
+        factors: &'a [f64],
+        x: &'a mut [[[f64; N]; D]],
+    ) {
         let (n, room) = (x.len(), room(x.len()));
-        let take = |row: &mut [f64; N], factors: &[f64], others: &[[f64; N]]| {
+        let take = |row: &mut [[f64; N]; D], factors: &[f64], others: &[[[f64; N]; D]]| {
             for (factor, other) in factors.iter().zip(others) {
-                row.iter_mut().zip(other).for_each(|(value, other)| *value -= factor * other);
+                let row = row.as_flattened_mut().iter_mut().zip(other.as_flattened());
+                row.for_each(|(value, other)| *value -= factor * other);
             }
         };
         for i in 0..n {
@@ -170,7 +175,7 @@ vectorised! {
             let (row, (above, below)) = (&factors[i * room..][..n], x.split_at_mut(i + 1));
             take(&mut above[i], &row[i + 1..], below);
             let over = 1.0 / row[i];
-            above[i].iter_mut().for_each(|value| *value *= over);
+            above[i].as_flattened_mut().iter_mut().for_each(|value| *value *= over);
         }
     }
 }

@@ -6,16 +6,16 @@
 macro_rules! vectorised {
     (
         $(#[$meta:meta])*
-        fn $name:ident<$life:lifetime, $S:ident $(, const $N:ident: usize)?>(
+        fn $name:ident<$life:lifetime, $S:ident $(, const $N:ident: usize)*>(
             $simd:ident, $($arg:ident: $type:ty),* $(,)?
         ) $(-> $out:ty)? $body:block
     ) => {
         $(#[$meta])*
-        pub(crate) fn $name<$life $(, const $N: usize)?>($($arg: $type),*) $(-> $out)? {
-            struct Kernel<$life $(, const $N: usize)?> {
+        pub(crate) fn $name<$life $(, const $N: usize)*>($($arg: $type),*) $(-> $out)? {
+            struct Kernel<$life $(, const $N: usize)*> {
                 $($arg: $type),*
             }
-            impl<$life $(, const $N: usize)?> pulp::WithSimd for Kernel<$life $(, $N)?> {
+            impl<$life $(, const $N: usize)*> pulp::WithSimd for Kernel<$life $(, $N)*> {
                 type Output = $crate::linalg::vectorised::vectorised!(@output $($out)?);
 
                 #[inline(always)]

@@ -162,7 +162,7 @@ fn on_points(
     let directions = x.map(|x| if sideways { direction(x).abs() as i8 } else { direction(x) as i8 });
     let series = |shear: &Piecewise| {
         let terms = constants.of_points.terms_of(&x.map(|x| shear.at(x)), upstream);
-        Arch { count: TERMS, terms: std::array::from_fn(|k| terms[k]), ..pressure }
+        Arch { count: TERMS, terms, ..pressure }
     };
     let lateral = if sideways { series(&from.traction.lateral_shear) } else { Arch::default() };
     Tractions { pressure, slide: 0.0, stick: series(&from.traction.shear), directions: Some(directions), lateral }

@@ -1,42 +1,43 @@
-//! Friction along and across on one line under given pressures: the shear of every place stays within a disc.
+//! Friction on one line under given pressures: the shear of every place stays within a disc of D directions, along the line
+//! or along and across.
 //!
 //! Of the shear q, the slip s and the radius g of the disc, `q = P(q − r s)` says Coulomb's law for any `r > 0`, with the
 //! projection P on the disc. Slips stand half a place upstream of their shear. In two directions a shear that slips would
 //! point against the slip there, and not where it stands: so its slip is corrected once by the difference of both in the
 //! solution without. A step of Newton's method makes the law linear: what sticks has no slip, and what slips turns along
-//! the circle.
+//! the circle. In one direction the disc is an interval, and nothing turns.
 //! Theory: `docs/theory/patch-contact.md`, section 3.
 
-use crate::linalg::POINTS;
+use crate::contact::flexibility::ByPowers;
 use crate::linalg::vectorised::vectorised;
 
-/// Coefficients of the polynomials of slip along and across.
-pub const SLIPS: usize = 2 * POINTS;
 /// Slip times r over the radius of the disc at which half of the correction counts \[1].
 const BEGINNING: f64 = 0.05;
 
-/// Values at all places along and across.
-pub type AlongAcross<const N: usize> = [[f64; N]; 2];
+/// Values at all places by direction: along, then across.
+pub type ByDirection<const N: usize, const D: usize> = [[f64; N]; D];
+/// Polynomials of the place over the half-length of the line by direction, or moments with its powers.
+pub type Polynomials<const D: usize> = [ByPowers; D];
 
 /// Slips at the places of a line, by the shear there.
 #[derive(Clone)]
-pub struct SlipRows<const N: usize> {
-    /// Slips along and across by the shear of every point in this direction [m/s/Pa].
-    pub by_shear: [Vec<[f64; N]>; 2],
+pub struct SlipRows<const N: usize, const D: usize> {
+    /// Slips in every direction by the shear of every point in this direction [m/s/Pa].
+    pub by_shear: [Vec<[f64; N]>; D],
     /// Slips without any shear [m/s].
-    pub known: AlongAcross<N>,
+    pub known: ByDirection<N, D>,
     /// Powers of the place over the half-length of the line.
     pub powers: Vec<[f64; N]>,
 }
 
 /// The tangential problem of one line.
 #[derive(Clone)]
-pub struct ConeProblem<const N: usize> {
+pub struct ConeProblem<const N: usize, const D: usize> {
     /// Slips that friction sees.
-    pub rows: SlipRows<N>,
+    pub rows: SlipRows<N, D>,
     /// Slips in the place of the shear; `None`: friction sees these.
-    in_place: Option<SlipRows<N>>,
-    /// Change of the slip of every point by its shear [m/s/Pa], the larger one of both directions.
+    in_place: Option<SlipRows<N, D>>,
+    /// Change of the slip of every point by its shear [m/s/Pa], the largest one of all directions.
     pub least: [f64; N],
     /// Moments of the shear of every point with the powers of the places \[m].
     moments: Vec<[f64; N]>,
@@ -47,31 +48,31 @@ pub struct ConeProblem<const N: usize> {
 
 /// State that friction asks of a point, and what is missing.
 #[derive(Clone, Copy)]
-pub enum PointState {
+pub enum PointState<const D: usize> {
     /// Stick, with the slip that is left [m/s].
-    Stick { slip: [f64; 2] },
+    Stick { slip: [f64; D] },
     /// Slip against `direction`; `turn`: how much of a turn of the shear is left over, over r [m/s/Pa]; `excess`: shear
     /// beyond that of friction \[Pa].
-    Slip { direction: [f64; 2], turn: f64, excess: [f64; 2] },
+    Slip { direction: [f64; D], turn: f64, excess: [f64; D] },
 }
 
 /// States that friction asks of all points of a line.
-pub struct ConeVerdict<const N: usize> {
-    pub points: [PointState; N],
+pub struct ConeVerdict<const N: usize, const D: usize> {
+    pub points: [PointState<D>; N],
     /// Largest violation of friction over its peak \[1].
     pub largest: f64,
 }
 
 vectorised! {
-    /// Adds slips of all points by a shear and by coefficients of polynomials along and across.
-    fn add_slips<'a, S, const N: usize>(
+    /// Adds slips of all points by a shear and by polynomials.
+    fn add_slips<'a, S, const N: usize, const D: usize>(
         _simd,
-        rows: &'a SlipRows<N>,
-        shear: &'a AlongAcross<N>,
-        others: [&'a [f64]; 2],
-        slips: &'a mut AlongAcross<N>,
+        rows: &'a SlipRows<N, D>,
+        shear: &'a ByDirection<N, D>,
+        others: [&'a [f64]; D],
+        slips: &'a mut ByDirection<N, D>,
     ) {
-        for c in 0..2 {
+        for c in 0..D {
             let mut sum = slips[c];
             for (by, strength) in rows.by_shear[c].iter().zip(&shear[c]) {
                 for i in 0..N {
@@ -89,12 +90,16 @@ vectorised! {
 }
 
 vectorised! {
-    /// Moments of a shear along, then across, given those of the shear of every point.
-    fn moments<'a, S, const N: usize>(_simd, by_shear: &'a [[f64; N]], shear: &'a AlongAcross<N>) -> [f64; SLIPS] {
-        let mut moments = [0.0; SLIPS];
-        for (c, shear) in shear.iter().enumerate() {
+    /// Moments of a shear, given those of the shear of every point.
+    fn moments<'a, S, const N: usize, const D: usize>(
+        _simd,
+        by_shear: &'a [[f64; N]],
+        shear: &'a ByDirection<N, D>,
+    ) -> Polynomials<D> {
+        let mut moments = [ByPowers::default(); D];
+        for (moments, shear) in moments.iter_mut().zip(shear) {
             let (shear, shear_rest) = shear.as_chunks::<4>();
-            for (moment, by) in moments[POINTS * c..].iter_mut().zip(by_shear) {
+            for (moment, by) in moments.iter_mut().zip(by_shear) {
                 let ((by, by_rest), mut sums) = (by.as_chunks::<4>(), [0.0; 4]);
                 for (by, shear) in by.iter().zip(shear) {
                     for l in 0..4 {
@@ -120,7 +125,7 @@ vectorised! {
     }
 }
 
-impl<const N: usize> SlipRows<N> {
+impl<const N: usize, const D: usize> SlipRows<N, D> {
     /// Mean with others, which have a `share`.
     pub fn mean(mut self, other: &Self, share: f64) -> Self {
         for (by, other) in self.by_shear.iter_mut().zip(&other.by_shear) {
@@ -132,27 +137,27 @@ impl<const N: usize> SlipRows<N> {
     }
 
     /// Slips by a shear alone [m/s].
-    pub fn slips_of(&self, shear: &AlongAcross<N>) -> AlongAcross<N> {
-        let mut slips = [[0.0; N]; 2];
-        add_slips(self, shear, [&[]; 2], &mut slips);
+    pub fn slips_of(&self, shear: &ByDirection<N, D>) -> ByDirection<N, D> {
+        let mut slips = [[0.0; N]; D];
+        add_slips(self, shear, [&[]; D], &mut slips);
         slips
     }
 
     /// Slips by a shear and by all else as polynomials [m/s].
-    pub fn slips(&self, shear: &AlongAcross<N>, others: &[f64; SLIPS]) -> AlongAcross<N> {
-        let (mut slips, (along, across)) = (self.known, others.split_at(POINTS));
-        add_slips(self, shear, [along, across], &mut slips);
+    pub fn slips(&self, shear: &ByDirection<N, D>, others: &Polynomials<D>) -> ByDirection<N, D> {
+        let mut slips = self.known;
+        add_slips(self, shear, others.each_ref().map(|others| &others[..]), &mut slips);
         slips
     }
 }
 
-impl<const N: usize> ConeProblem<N> {
+impl<const N: usize, const D: usize> ConeProblem<N, D> {
     /// The problem with the slips that friction sees, and those in the place of the shear if they are others, forces by the
     /// `weights` \[m] of points that bear the given friction, and this at the peak of the pressure \[Pa]. Points that bear
     /// none have no shear.
     pub fn new(
-        rows: SlipRows<N>,
-        in_place: Option<SlipRows<N>>,
+        rows: SlipRows<N, D>,
+        in_place: Option<SlipRows<N, D>>,
         weights: &[f64; N],
         bears: [f64; N],
         most: f64,
@@ -164,16 +169,16 @@ impl<const N: usize> ConeProblem<N> {
         Self { rows, in_place, least, moments, bears, most }
     }
 
-    /// Moments [N/m] of a shear with the powers along, then across.
-    pub fn moments(&self, shear: &AlongAcross<N>) -> [f64; SLIPS] {
+    /// Moments [N/m] of a shear with the powers.
+    pub fn moments(&self, shear: &ByDirection<N, D>) -> Polynomials<D> {
         moments(&self.moments, shear)
     }
 
     /// Shears within the disc that come next to the given ones, which belong to a friction `ratio` times smaller.
-    pub fn within(&self, shear: &AlongAcross<N>, ratio: f64) -> AlongAcross<N> {
+    pub fn within(&self, shear: &ByDirection<N, D>, ratio: f64) -> ByDirection<N, D> {
         let mut within = shear.map(|shear| shear.map(|q| ratio * q));
         for (i, bears) in self.bears.iter().enumerate() {
-            let size = length([within[0][i], within[1][i]]);
+            let size = length(&at(&within, i));
             if size > *bears {
                 within.iter_mut().for_each(|shear| shear[i] *= bears / size);
             }
@@ -183,11 +188,11 @@ impl<const N: usize> ConeProblem<N> {
 
     /// Correction of the slip by the difference between that in the place of the shear and that upstream, where a solution
     /// slips [m/s].
-    pub fn correction(&self, shear: &AlongAcross<N>, others: &[f64; SLIPS]) -> AlongAcross<N> {
-        let Some(in_place) = &self.in_place else { return [[0.0; N]; 2] };
+    pub fn correction(&self, shear: &ByDirection<N, D>, others: &Polynomials<D>) -> ByDirection<N, D> {
+        let Some(in_place) = &self.in_place else { return [[0.0; N]; D] };
         let [upstream, in_place] = [&self.rows, in_place].map(|rows| rows.slips(shear, others));
         let weight = |i: usize| {
-            let ahead = length([upstream[0][i], upstream[1][i]]) / self.least[i];
+            let ahead = length(&at(&upstream, i)) / self.least[i];
             let sum = ahead + BEGINNING * self.bears[i];
             if sum > 0.0 { ahead / sum } else { 0.0 }
         };
@@ -196,14 +201,19 @@ impl<const N: usize> ConeProblem<N> {
     }
 
     /// Adds given slips to the known ones.
-    pub fn add(&mut self, slips: &AlongAcross<N>) {
+    pub fn add(&mut self, slips: &ByDirection<N, D>) {
         let known = self.rows.known.as_flattened_mut();
         known.iter_mut().zip(slips.as_flattened()).for_each(|(known, slip)| *known += slip);
     }
 
     /// Takes the friction that points bear, and `slips` under a present shear, beside which others are polynomials.
-    pub fn renew(&mut self, slips: AlongAcross<N>, bears: [f64; N], (shear, others): (&AlongAcross<N>, &[f64; SLIPS])) {
-        self.rows.known = [[0.0; N]; 2];
+    pub fn renew(
+        &mut self,
+        slips: ByDirection<N, D>,
+        bears: [f64; N],
+        (shear, others): (&ByDirection<N, D>, &Polynomials<D>),
+    ) {
+        self.rows.known = [[0.0; N]; D];
         let linear = self.rows.slips(shear, others);
         self.rows.known = std::array::from_fn(|c| {
             std::array::from_fn(|i| if bears[i] > 0.0 { slips[c][i] - linear[c][i] } else { 0.0 })
@@ -218,7 +228,7 @@ impl<const N: usize> ConeProblem<N> {
     }
 
     /// Draws the shear to the given one, `strength` times as much as the slip of a point resists its own shear.
-    pub fn draw(&mut self, strength: f64, shear: &AlongAcross<N>) {
+    pub fn draw(&mut self, strength: f64, shear: &ByDirection<N, D>) {
         let SlipRows { by_shear, known, .. } = &mut self.rows;
         for ((by_shear, known), shear) in by_shear.iter_mut().zip(known).zip(shear) {
             for (i, (least, shear)) in self.least.iter().zip(shear).enumerate() {
@@ -230,11 +240,11 @@ impl<const N: usize> ConeProblem<N> {
     }
 
     /// States that friction asks for under a shear and the slip by all else as polynomials.
-    pub fn verdict(&self, shear: &AlongAcross<N>, others: &[f64; SLIPS]) -> ConeVerdict<N> {
+    pub fn verdict(&self, shear: &ByDirection<N, D>, others: &Polynomials<D>) -> ConeVerdict<N, D> {
         let slips = self.rows.slips(shear, others);
-        let (mut points, mut largest) = ([PointState::Stick { slip: [0.0; 2] }; N], 0.0_f64);
+        let (mut points, mut largest) = ([PointState::Stick { slip: [0.0; D] }; N], 0.0_f64);
         for (i, point) in points.iter_mut().enumerate() {
-            let (state, violation) = self.judge(i, [shear[0][i], shear[1][i]], [slips[0][i], slips[1][i]]);
+            let (state, violation) = self.judge(i, at(shear, i), at(&slips, i));
             let violation = violation / self.most.max(f64::MIN_POSITIVE);
             (*point, largest) = (state, largest.max(violation));
         }
@@ -242,33 +252,39 @@ impl<const N: usize> ConeProblem<N> {
     }
 
     /// State that friction asks of a point with the shear q and the slip s, and its violation \[Pa].
-    fn judge(&self, i: usize, q: [f64; 2], s: [f64; 2]) -> (PointState, f64) {
+    fn judge(&self, i: usize, q: [f64; D], s: [f64; D]) -> (PointState<D>, f64) {
         let (bears, least) = (self.bears[i], self.least[i]);
-        let held = [0, 1].map(|c| q[c] - s[c] / least);
-        let size = length(held);
+        let held: [f64; D] = std::array::from_fn(|c| q[c] - s[c] / least);
+        let size = length(&held);
         if size <= bears && bears > 0.0 {
-            return (PointState::Stick { slip: s }, length(s) / least);
+            return (PointState::Stick { slip: s }, length(&s) / least);
         }
         // Nothing is held at a point that bears nothing, and asks for nothing.
         let (size, share) = if size > 0.0 { (size, bears / size) } else { (1.0, 0.0) };
         let direction = held.map(|z| z / size);
         let turn = if share > 0.0 { (1.0 - share) / share * least } else { f64::INFINITY };
-        let excess = [0, 1].map(|c| q[c] - bears * direction[c]);
-        (PointState::Slip { direction, turn, excess }, length(excess))
+        let excess = std::array::from_fn(|c| q[c] - bears * direction[c]);
+        (PointState::Slip { direction, turn, excess }, length(&excess))
     }
 }
 
-impl<const N: usize> ConeVerdict<N> {
-    /// States of the points: 0 where they stick, 1 where they slip.
+impl<const N: usize, const D: usize> ConeVerdict<N, D> {
+    /// States of the points: 0 where they stick; where they slip, the sign of their shear in one direction and 1 in two.
     pub fn states(&self) -> [i8; N] {
         self.points.map(|point| match point {
             PointState::Stick { .. } => 0,
+            PointState::Slip { direction, .. } if D == 1 && direction[0] < 0.0 => -1,
             PointState::Slip { .. } => 1,
         })
     }
 }
 
+/// The vector of a point.
+fn at<const N: usize, const D: usize>(values: &ByDirection<N, D>, i: usize) -> [f64; D] {
+    std::array::from_fn(|c| values[c][i])
+}
+
 /// Length of a vector of shear or slip, whose squares are in range.
-fn length([along, across]: [f64; 2]) -> f64 {
-    (along * along + across * across).sqrt()
+fn length<const D: usize>(vector: &[f64; D]) -> f64 {
+    vector.iter().map(|part| part * part).sum::<f64>().sqrt()
 }

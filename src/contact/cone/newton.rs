@@ -1,6 +1,6 @@
 //! Newton's method on the law of [`super::law`] under given pressures, all lines and motions at once.
 
-use super::law::{AlongAcross, ConeProblem, ConeVerdict, SLIPS};
+use super::law::{ByDirection, ConeProblem, ConeVerdict, Polynomials};
 use super::linear::{ConeProblems, FreeMotion, Linearised, TangentialCoupling, sum_between};
 use crate::axes::PerAxis;
 use crate::contact::error::ContactError;
@@ -27,37 +27,37 @@ const REPEATED: f64 = 1e-6;
 const SLOW: f64 = 0.2;
 
 /// Where a search is, or was.
-pub struct Begun<const N: usize> {
-    shears: Vec<AlongAcross<N>>,
+pub struct Begun<const N: usize, const D: usize> {
+    shears: Vec<ByDirection<N, D>>,
     rigid: PerAxis<f64>,
     /// Largest violation of friction and balances \[1].
     pub largest: f64,
 }
 
 /// The tangential problem of all lines under given pressures, and where the search is in it.
-pub struct Newton<'a, const N: usize> {
-    problems: &'a mut [ConeProblem<N>],
-    coupling: &'a mut TangentialCoupling,
-    pub shears: Vec<AlongAcross<N>>,
+pub struct Newton<'a, const N: usize, const D: usize> {
+    problems: &'a mut [ConeProblem<N, D>],
+    coupling: &'a mut TangentialCoupling<D>,
+    pub shears: Vec<ByDirection<N, D>>,
     /// Present motions.
     pub rigid: PerAxis<f64>,
     /// Slips by all but the known one, as polynomials.
-    slips: Vec<[f64; SLIPS]>,
-    pub verdicts: Vec<ConeVerdict<N>>,
+    slips: Vec<Polynomials<D>>,
+    pub verdicts: Vec<ConeVerdict<N, D>>,
     /// Missing parts of the balances of the free motions [N/m, N].
     unbalance: Vec<f64>,
     /// Linear law of before.
-    pub linear: Option<Linearised<N>>,
+    pub linear: Option<Linearised<N, D>>,
     /// Times that the law was made linear.
     pub linear_laws: usize,
 }
 
-impl<'a, const N: usize> Newton<'a, N> {
+impl<'a, const N: usize, const D: usize> Newton<'a, N, D> {
     /// Begins with given shears, with motions that differ from those of the known slip by `motion`.
     pub fn new(
-        coupling: &'a mut TangentialCoupling,
-        problems: &'a mut [ConeProblem<N>],
-        (shears, motion): (&[AlongAcross<N>], PerAxis<f64>),
+        coupling: &'a mut TangentialCoupling<D>,
+        problems: &'a mut [ConeProblem<N, D>],
+        (shears, motion): (&[ByDirection<N, D>], PerAxis<f64>),
     ) -> Self {
         let rigid = PerAxis::from_fn(|axis| coupling.base[axis] + motion[axis]);
         let (slips, verdicts, unbalance) = Default::default();
@@ -68,7 +68,7 @@ impl<'a, const N: usize> Newton<'a, N> {
     }
 
     /// Goes on from given shears, with the motions of the known slip.
-    pub fn take(&mut self, shears: &[AlongAcross<N>]) {
+    pub fn take(&mut self, shears: &[ByDirection<N, D>]) {
         self.shears.clone_from_slice(shears);
         self.rigid = self.coupling.base;
         self.judge();
@@ -83,14 +83,15 @@ impl<'a, const N: usize> Newton<'a, N> {
             let mut sum = sum_between(between, at, &moments);
             for FreeMotion { axis, slips, .. } in motions {
                 let change = self.rigid[*axis] - base[*axis];
-                sum.iter_mut().zip(&slips[at]).for_each(|(sum, slip)| *sum += change * slip);
+                let sum = sum.as_flattened_mut().iter_mut().zip(slips[at].as_flattened());
+                sum.for_each(|(sum, slip)| *sum += change * slip);
             }
             sum
         };
         self.slips = (0..self.problems.len()).map(slips).collect();
         let lines = self.problems.iter().zip(&self.shears).zip(&self.slips);
         self.verdicts = lines.map(|((problem, shear), slips)| problem.verdict(shear, slips)).collect();
-        let balance = |motion: &FreeMotion| {
+        let balance = |motion: &FreeMotion<D>| {
             let resisted =
                 motions.iter().map(|other| motion.resistance(other.axis) * (self.rigid[other.axis] - base[other.axis]));
             let [resistance, way] = motion.drawn;
@@ -148,7 +149,7 @@ impl<'a, const N: usize> Newton<'a, N> {
     /// Goes to the solution of a shear that is drawn to the present one; true if it is found.
     fn draw(&mut self, strength: f64, tolerance: f64) -> bool {
         let (problems, shears) = (self.problems.to_vec(), &self.shears);
-        let resists = |(problem, share): (&ConeProblem<N>, &f64)| share * problem.resistance();
+        let resists = |(problem, share): (&ConeProblem<N, D>, &f64)| share * problem.resistance();
         let resistance = strength * self.problems.iter().zip(&self.coupling.shares).map(resists).sum::<f64>();
         self.problems.iter_mut().zip(shears).for_each(|(problem, shear)| problem.draw(strength, shear));
         let TangentialCoupling { motions, base, radius, .. } = &mut *self.coupling;
@@ -167,12 +168,12 @@ impl<'a, const N: usize> Newton<'a, N> {
     }
 
     /// Present shears and motions.
-    pub fn now(&self) -> Begun<N> {
+    pub fn now(&self) -> Begun<N, D> {
         Begun { shears: self.shears.clone(), rigid: self.rigid, largest: self.largest() }
     }
 
     /// Begins anew with shears and motions.
-    pub fn restart(&mut self, begun: &Begun<N>) {
+    pub fn restart(&mut self, begun: &Begun<N, D>) {
         self.shears.clone_from(&begun.shears);
         self.rigid = begun.rigid;
         self.judge();
@@ -215,7 +216,7 @@ impl<'a, const N: usize> Newton<'a, N> {
         }
     }
 
-    fn problem(&self) -> ConeProblems<'_, N> {
+    fn problem(&self) -> ConeProblems<'_, N, D> {
         ConeProblems { lines: self.problems, coupling: &*self.coupling, unbalance: &self.unbalance }
     }
 
@@ -242,6 +243,7 @@ mod tests {
     use super::*;
     use crate::axes::Axis;
     use crate::contact::cone::law::SlipRows;
+    use crate::contact::flexibility::ByPowers;
     use crate::contact::line::NodeStatus;
     use crate::contact::line::kernel::logarithms;
     use crate::contact::line::streamline::upwind_rows;
@@ -251,7 +253,7 @@ mod tests {
 
     /// Steady state: forces along and across, moment of these, and the lateral velocity that was sought.
     struct SteadyRolling<const N: usize> {
-        shear: AlongAcross<N>,
+        shear: ByDirection<N, 2>,
         pressure: [f64; N],
         force: [f64; 2],
         moment: f64,
@@ -282,7 +284,7 @@ mod tests {
         std::array::from_fn(|i| found[i])
     }
 
-    fn line<const N: usize>([along, across, spin]: [f64; 3]) -> (ConeProblem<N>, [f64; N]) {
+    fn line<const N: usize>([along, across, spin]: [f64; 3]) -> (ConeProblem<N, 2>, [f64; N]) {
         let displaced = displacements::<N>();
         let pressure = pressure(&displaced);
         assert!(pressure.iter().all(|p| *p > 0.0));
@@ -306,7 +308,8 @@ mod tests {
     /// that which holds it.
     fn roll<const N: usize>(slip: [f64; 3], held: Option<f64>) -> SteadyRolling<N> {
         let (problem, pressure) = line(slip);
-        let across: [f64; SLIPS] = std::array::from_fn(|k| if k == POINTS { 1.0 } else { 0.0 });
+        let mut across = [ByPowers::default(); 2];
+        across[1][0] = 1.0;
         let motion = |force: f64| FreeMotion {
             axis: Axis::Lateral,
             slips: vec![across],
@@ -316,7 +319,7 @@ mod tests {
             drawn: [0.0; 2],
         };
         let mut coupling = TangentialCoupling {
-            between: vec![[[0.0; SLIPS]; SLIPS]],
+            between: vec![Default::default()],
             motions: held.map(motion).into_iter().collect(),
             base: PerAxis::default(),
             radius: 1.0,
@@ -327,8 +330,8 @@ mod tests {
         let mut newton = Newton::new(&mut coupling, &mut problems, (&[[[0.0; N]; 2]], PerAxis::default()));
         newton.run(1e-12).unwrap();
         let (shear, lateral) = (newton.shears[0], newton.rigid.lateral);
-        let moments = problems[0].moments(&shear).map(|moment| moment / FRAC_PI_2);
-        SteadyRolling { shear, pressure, force: [moments[0], moments[POINTS]], moment: moments[POINTS + 1], lateral }
+        let moments = problems[0].moments(&shear).map(|moments| moments.map(|moment| moment / FRAC_PI_2));
+        SteadyRolling { shear, pressure, force: moments.map(|moments| moments[0]), moment: moments[1][1], lateral }
     }
 
     #[test]

@@ -4,11 +4,11 @@ use super::chebyshev::Arch;
 use super::points::COUNT;
 use super::series_line::SeriesLine;
 use super::tables::POWER;
-use crate::contact::cone::AlongAcross;
+use crate::contact::cone::ByDirection;
 use crate::contact::flexibility::values;
 
-/// Values at all points along and across.
-pub type Vectors = AlongAcross<COUNT>;
+/// Values at all points by direction.
+pub type Vectors<const D: usize> = ByDirection<COUNT, D>;
 
 impl SeriesLine<'_> {
     /// True if tractions and slips have a lateral part.

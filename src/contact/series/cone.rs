@@ -1,5 +1,5 @@
-//! Shear of lines along and across at the points of [`super::points`], as [`crate::contact::cone`] finds it: slips of every
-//! line by its points, by other lines and by motions, and what the balances of these miss.
+//! Shear of lines at the points of [`super::points`] in D directions, along or along and across, as [`crate::contact::cone`]
+//! finds it: slips of every line by its points, by other lines and by motions, and what the balances of these miss.
 
 use super::chebyshev::Arch;
 use super::contact::SeriesContact;
@@ -7,10 +7,9 @@ use super::points::{COUNT, PointTables};
 use super::series_line::SeriesLine;
 use super::surface::SmoothSurfaces;
 use crate::axes::{Axis, PerAxis};
-use crate::contact::cone::{ConeProblem, FreeMotion, SLIPS, SlipRows, TangentialCoupling};
+use crate::contact::cone::{ByPolynomials, ConeProblem, FreeMotion, Polynomials, SlipRows, TangentialCoupling};
 use crate::contact::flexibility::{ByMoments, ByPowers};
 use crate::contact::kernel::Logarithm;
-use crate::linalg::POINTS;
 use std::f64::consts::PI;
 
 /// Unknowns at most.
@@ -20,26 +19,31 @@ const WHOLE_WAY: f64 = 0.03;
 
 impl SeriesLine<'_> {
     /// The problem of the line, whose tractions have no shear at the moment, with the smooth displacements `surface`.
-    pub fn cone_problem(&self, surface: &SmoothSurfaces) -> ConeProblem<COUNT> {
-        let (constants, upstream) = (self.constants, self.upstream());
+    pub fn cone_problem<const D: usize>(&self, surface: &SmoothSurfaces) -> ConeProblem<COUNT, D> {
+        let (constants, leading) = (self.constants, self.upstream());
         let Arch { centre, half_width: half, terms, .. } = self.tractions.pressure;
-        let at = |t: &f64| centre + upstream * half * t;
+        let at = |t: &f64| centre + leading * half * t;
         let places = [&constants.of_points, &constants.in_place].map(|tables| tables.slips.each_ref().map(at));
         let both: [f64; UNKNOWNS] = std::array::from_fn(|i| places[i / COUNT][i % COUNT]);
-        let known = [self.slip(&both, surface, false), self.lateral_slip(&both, false)];
+        let known: [_; D] = std::array::from_fn(|direction| match direction {
+            0 => self.slip(&both, surface, false),
+            _ => self.lateral_slip(&both, false),
+        });
+        let kernels = [self.problem.line.kernel.tangential, self.problem.line.kernel.lateral];
         let rows = |set: usize, tables: &PointTables| SlipRows {
-            by_shear: [self.problem.line.kernel.tangential, self.problem.line.kernel.lateral]
-                .map(|kernel| self.slips_by_points(tables, kernel).to_vec()),
-            known: known.map(|known| std::array::from_fn(|i| known[set * COUNT + i])),
+            by_shear: std::array::from_fn(|direction| self.slips_by_points(tables, kernels[direction]).to_vec()),
+            known: known.each_ref().map(|known| std::array::from_fn(|i| known[set * COUNT + i])),
             powers: self.powers_at(&places[set]).to_vec(),
         };
-        let in_place = rows(1, &constants.in_place);
-        let rows = rows(0, &constants.of_points).mean(&in_place, 1.0 - self.way_upstream());
+        let (mut upstream, in_place) = (rows(0, &constants.of_points), (D > 1).then(|| rows(1, &constants.in_place)));
+        if let Some(in_place) = &in_place {
+            upstream = upstream.mean(in_place, 1.0 - self.way_upstream());
+        }
         // The rule of Gauss and Chebyshev has its places at the points.
         let part = PI / (COUNT + 1) as f64;
         let weights: [f64; COUNT] = std::array::from_fn(|i| half * part * libm::sin((i + 1) as f64 * part));
         let bears = self.tractions.pressure.density(&places[1]).map(|p| self.friction * p.max(0.0));
-        ConeProblem::new(rows, Some(in_place), &weights, bears, self.friction * terms[0])
+        ConeProblem::new(upstream, in_place, &weights, bears, self.friction * terms[0])
     }
 
     /// Share of the way to half a point upstream that the slips stand from their shear: in steps much shorter than the
@@ -64,17 +68,12 @@ impl SeriesLine<'_> {
     }
 }
 
-/// Coefficients along and across as one list.
-fn joined([along, across]: [ByPowers; 2]) -> [f64; SLIPS] {
-    std::array::from_fn(|k| if k < POINTS { along[k] } else { across[k - POINTS] })
-}
-
 impl SeriesContact<'_> {
-    /// Slips of a line along and across by unit moments of the shear of another one, given [`Self::slips_by_bodies`].
-    fn slips_askew(&self, by_bodies: &ByMoments, [at, by]: [usize; 2]) -> [[f64; SLIPS]; SLIPS] {
+    /// Slips of a line by unit moments of the shear of another one, given [`Self::slips_by_bodies`].
+    fn slips_between<const D: usize>(&self, by_bodies: &ByMoments, [at, by]: [usize; 2]) -> ByPolynomials<D> {
         let (along, line) = (self.slips_through(by_bodies, [at, by]), &self.lines[at]);
         let [rate, strain] = line.slip_of_field();
-        let patch = line.problem.line.patch;
+        let patch = line.problem.line.patch.filter(|_| D > 1);
         let [across, askew]: [ByMoments; 2] =
             patch.and_then(|patch| patch.flexibility.across(patch.line, by)).map_or_else(Default::default, |tables| {
                 tables.map(|between| {
@@ -83,18 +82,16 @@ impl SeriesContact<'_> {
                     })
                 })
             });
-        std::array::from_fn(|n| match n < POINTS {
-            true => joined([along[n], askew[n]]),
-            false => joined([askew[n - POINTS], across[n - POINTS]]),
-        })
+        let of = |by: usize, at: usize| if by != at { &askew } else { [&along, &across][by] };
+        std::array::from_fn(|by| std::array::from_fn(|n| std::array::from_fn(|at| of(by, at)[n])))
     }
 
     /// Coupling of all lines and free motions under the present pressures.
-    pub fn coupling(&self) -> TangentialCoupling {
+    pub fn coupling<const D: usize>(&self) -> TangentialCoupling<D> {
         let (count, resultant) = (self.lines.len(), self.resultant());
         let (first, by_bodies) = (&self.lines[0], self.slips_by_bodies());
         TangentialCoupling {
-            between: (0..count * count).map(|k| self.slips_askew(&by_bodies, [k / count, k % count])).collect(),
+            between: (0..count * count).map(|k| self.slips_between(&by_bodies, [k / count, k % count])).collect(),
             motions: self.free_axes().map(|axis| self.free_motion(axis, resultant[axis])).collect(),
             base: first.rigid,
             radius: first.problem.line.radius(),
@@ -104,11 +101,11 @@ impl SeriesContact<'_> {
     }
 
     /// A motion under a contact `force` without shear [N/m, N].
-    fn free_motion(&self, axis: Axis, force: f64) -> FreeMotion {
+    fn free_motion<const D: usize>(&self, axis: Axis, force: f64) -> FreeMotion<D> {
         FreeMotion {
             axis,
             slips: self.lines.iter().map(|line| line.slips_by_motion(axis)).collect(),
-            pulls: (0..self.lines.len()).map(|line| joined(self.pulls(axis, line))).collect(),
+            pulls: (0..self.lines.len()).map(|line| self.pulls(axis, line)).collect(),
             resistance: PerAxis::from_fn(|other| self.inertia(axis, other) * self.rigid[other].gain),
             missing: -self.unbalance(axis, force),
             drawn: [0.0; 2],
@@ -117,14 +114,16 @@ impl SeriesContact<'_> {
 }
 
 impl SeriesLine<'_> {
-    /// Slip along and across by a unit of a motion, as coefficients of polynomials.
-    fn slips_by_motion(&self, axis: Axis) -> [f64; SLIPS] {
-        let mut slips = [0.0; SLIPS];
-        slips[..POINTS].copy_from_slice(&self.slip_by_motion(axis));
+    /// Slip by a unit of a motion.
+    fn slips_by_motion<const D: usize>(&self, axis: Axis) -> Polynomials<D> {
         let spin = self.problem.spin.by(axis);
-        slips[0] -= spin * self.problem.line.position;
-        slips[POINTS] = if axis == Axis::Lateral { 1.0 } else { 0.0 };
-        slips[POINTS + 1] = spin * self.half_length;
+        let mut slips = [ByPowers::default(); D];
+        slips[0] = self.slip_by_motion(axis);
+        slips[0][0] -= spin * self.problem.line.position;
+        if let Some(across) = slips.get_mut(1) {
+            across[0] = if axis == Axis::Lateral { 1.0 } else { 0.0 };
+            across[1] = spin * self.half_length;
+        }
         slips
     }
 }

@@ -1,5 +1,5 @@
-//! The search for the shear of all lines along and across, without the correction of the slips and with it, by turns with
-//! the pressure.
+//! The search for the shear of all lines in D directions, along or along and across, by turns with the pressure. In two
+//! directions shear is found without the correction of the slips and with it.
 
 use super::across::Vectors;
 use super::chebyshev::{Arch, TERMS};
@@ -8,7 +8,7 @@ use super::contact::SeriesContact;
 use super::places::total;
 use super::points::COUNT;
 use super::series_line::SeriesLine;
-use super::state::Uncorrected;
+use super::state::{Tractions, Uncorrected};
 use super::stick::{Motions, Settling};
 use crate::axes::PerAxis;
 use crate::contact::cone::{ConeProblem, ConeVerdict, Linearised, Newton};
@@ -27,11 +27,11 @@ const AT_REST: f64 = 1e-12;
 const ROUGHEST: f64 = 1e-2;
 const SHARE: f64 = 1e-3;
 
-/// Finds tractions and motions of lines that slip along and across.
-pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
-    let mut search = ConeSearch::new(contact);
+/// Finds tractions and motions of lines that slip in D directions.
+pub fn solve<const D: usize>(contact: &mut SeriesContact) -> Result<(), ContactError> {
+    let mut search = ConeSearch::<D>::new(contact);
     search.write(contact);
-    let (mut normal, mut settling) = (contact.press_under_shear(PRESSED, CLOSE)?, Settling::of_shear(contact));
+    let (mut normal, mut settling) = (contact.press_under_shear(PRESSED, CLOSE)?, Settling::of_shear(contact, D));
     let (mut last, mut coefficients) = (None, FrictionSearches::new(contact));
     for _ in 0..coefficients.rounds(MOST) {
         let before = Motions::of(contact);
@@ -50,15 +50,15 @@ pub fn solve(contact: &mut SeriesContact) -> Result<(), ContactError> {
         }
         normal = contact.press_under_shear(PRESSED, CLOSE)?;
     }
-    Err(ContactError::Unsuited { reason: "normal contact and that of points along and across do not settle" })
+    Err(ContactError::Unsuited { reason: "normal contact and that of points do not settle" })
 }
 
 /// Shear of all lines: without the correction of the slips, and with it.
-struct ConeSearch {
-    uncorrected: Vec<Vectors>,
+struct ConeSearch<const D: usize> {
+    uncorrected: Vec<Vectors<D>>,
     /// Motions without the correction less those with it.
     uncorrected_motion: PerAxis<f64>,
-    shears: Vec<Vectors>,
+    shears: Vec<Vectors<D>>,
     states: Vec<[i8; COUNT]>,
     /// Radius of the discs at the peak of the pressure to which the shears belong \[Pa].
     most: Vec<f64>,
@@ -67,18 +67,14 @@ struct ConeSearch {
     /// Violation of friction that ends Newton's method \[1].
     tolerance: f64,
     /// Linear laws of both searches.
-    linear: [Option<Linearised<COUNT>>; 2],
+    linear: [Option<Linearised<COUNT, D>>; 2],
 }
 
-impl ConeSearch {
+impl<const D: usize> ConeSearch<D> {
     /// Begins with the last tractions.
     fn new(contact: &mut SeriesContact) -> Self {
-        let shear = |line: &SeriesLine| match line.tractions.directions {
-            Some(_) => line.points_of([&line.tractions.stick, &line.tractions.lateral]),
-            None => [[0.0; COUNT]; 2],
-        };
-        let shears: Vec<_> = contact.lines.iter().map(shear).collect();
-        let uncorrected = |(shear, line): (&Vectors, &SeriesLine)| {
+        let shears: Vec<_> = contact.lines.iter().map(SeriesLine::shear_at_points).collect();
+        let uncorrected = |(shear, line): (&Vectors<D>, &SeriesLine)| {
             let further = &line.across.uncorrected.shear;
             std::array::from_fn(|c| std::array::from_fn(|i| shear[c][i] + further[c][i]))
         };
@@ -91,7 +87,7 @@ impl ConeSearch {
             states: vec![[0; COUNT]; contact.lines.len()],
             most: most.collect(),
             first: true,
-            tolerance: if contact.lines[0].problem.line.time.is_stationary() { AT_REST } else { TOLERANCE },
+            tolerance: if D == 1 || contact.lines[0].problem.line.time.is_stationary() { AT_REST } else { TOLERANCE },
             linear: [None, None],
         }
     }
@@ -123,23 +119,25 @@ impl ConeSearch {
         newton.linear = without.take();
         let mut violation = newton.largest();
         newton.run((SHARE * violation).clamp(self.tolerance, ROUGHEST))?;
-        // A first law with the correction: that without it may lead on.
         *without = newton.linear.take();
-        newton.linear = with.take().or_else(|| without.clone());
         self.uncorrected.clone_from(&newton.shears);
-        let motion = newton.rigid;
-        newton.correct();
-        // At first the shear of the step before may be farther than that without the correction.
-        let begun = newton.now();
-        newton.take(&self.shears);
-        if std::mem::replace(&mut self.first, false) && newton.largest() > begun.largest {
-            newton.restart(&begun);
+        if D > 1 {
+            let motion = newton.rigid;
+            // A first law with the correction: that without it may lead on.
+            newton.linear = with.take().or_else(|| without.clone());
+            newton.correct();
+            // At first the shear of the step before may be farther than that without the correction.
+            let begun = newton.now();
+            newton.take(&self.shears);
+            if std::mem::replace(&mut self.first, false) && newton.largest() > begun.largest {
+                newton.restart(&begun);
+            }
+            let further = newton.largest();
+            violation = violation.max(further);
+            newton.run((SHARE * further).clamp(self.tolerance, ROUGHEST))?;
+            *with = newton.linear.take();
+            self.uncorrected_motion = PerAxis::from_fn(|axis| motion[axis] - newton.rigid[axis]);
         }
-        let further = newton.largest();
-        violation = violation.max(further);
-        newton.run((SHARE * further).clamp(self.tolerance, ROUGHEST))?;
-        *with = newton.linear.take();
-        self.uncorrected_motion = PerAxis::from_fn(|axis| motion[axis] - newton.rigid[axis]);
         self.states = newton.verdicts.iter().map(ConeVerdict::states).collect();
         contact.linear_laws += newton.linear_laws;
         let (shears, rigid) = (newton.shears, newton.rigid);
@@ -153,15 +151,18 @@ impl ConeSearch {
     /// Leaves the solution without the correction to the next step.
     fn finish(&self, contact: &mut SeriesContact) {
         for ((line, shear), uncorrected) in contact.lines.iter_mut().zip(&self.shears).zip(&self.uncorrected) {
-            let further = std::array::from_fn(|c| std::array::from_fn(|i| uncorrected[c][i] - shear[c][i]));
-            line.across.uncorrected = Uncorrected { shear: further, motion: self.uncorrected_motion };
+            let mut further = Uncorrected { motion: self.uncorrected_motion, ..Uncorrected::default() };
+            for (c, further) in further.shear.iter_mut().enumerate().take(D) {
+                *further = std::array::from_fn(|i| uncorrected[c][i] - shear[c][i]);
+            }
+            line.across.uncorrected = further;
         }
     }
 }
 
 impl SeriesContact<'_> {
     /// Problems of all lines, which have no shear from now on.
-    fn cone_problems(&mut self) -> Vec<ConeProblem<COUNT>> {
+    fn cone_problems<const D: usize>(&mut self) -> Vec<ConeProblem<COUNT, D>> {
         self.lines.iter_mut().for_each(SeriesLine::release_points);
         self.exchange();
         let surface = self.surface();
@@ -170,32 +171,45 @@ impl SeriesContact<'_> {
 }
 
 impl SeriesLine<'_> {
-    /// Shear at the points of two series on the patch.
-    fn points_of(&self, series: [&Arch; 2]) -> Vectors {
-        let (tables, upstream) = (&self.constants.of_points, self.upstream());
-        series.map(|series| {
-            let on_unit = Arch { centre: 0.0, half_width: 1.0, ..*series };
-            on_unit.density(&tables.tractions.map(|t| upstream * t))
+    /// Present shear at the points of the patch; none where lines begin to slip in two directions.
+    fn shear_at_points<const D: usize>(&self) -> Vectors<D> {
+        let (tables, Tractions { pressure, stick, lateral, directions, .. }) =
+            (&self.constants.of_points, &self.tractions);
+        let places = tables.tractions.map(|t| self.upstream() * t);
+        if directions.is_none() {
+            let mut shear = [[0.0; COUNT]; D];
+            if D == 1 {
+                shear[0] = self.tractions.shear(&places.map(|t| pressure.centre + pressure.half_width * t));
+            }
+            return shear;
+        }
+        std::array::from_fn(|direction| {
+            let series = [stick, lateral][direction];
+            Arch { centre: 0.0, half_width: 1.0, ..*series }.density(&places)
         })
     }
 
     /// Takes the shear at all points.
-    fn take_points(&mut self, shear: &Vectors) {
+    fn take_points<const D: usize>(&mut self, shear: &Vectors<D>) {
         let (tables, upstream) = (&self.constants.of_points, self.upstream());
-        let [along, across] = shear.each_ref().map(|shear| {
+        let series = shear.each_ref().map(|shear| {
             let terms = tables.terms_of(shear, upstream);
-            Arch { count: COUNT, terms: std::array::from_fn(|k| terms[k]), ..self.tractions.pressure }
+            Arch { count: COUNT, terms, ..self.tractions.pressure }
         });
-        (self.tractions.stick, self.tractions.lateral, self.tractions.slide) = (along, across, 0.0);
+        (self.tractions.stick, self.tractions.slide) = (series[0], 0.0);
         self.place_shear();
-        let (places, force) = self.slipping_across();
-        self.across.powers = self.powers_at(&places).map(|power| total(&power, &force));
+        if let Some(across) = series.get(1) {
+            self.tractions.lateral = *across;
+            let (places, force) = self.slipping_across();
+            self.across.powers = self.powers_at(&places).map(|power| total(&power, &force));
+        }
     }
 
     /// Takes all shear away, but its places.
     fn release_points(&mut self) {
         let none = Arch { count: COUNT, terms: [0.0; TERMS], ..self.tractions.pressure };
-        (self.tractions.stick, self.tractions.lateral, self.tractions.slide) = (none, none, 0.0);
+        let lateral = if self.is_sideways() { none } else { Arch::default() };
+        (self.tractions.stick, self.tractions.lateral, self.tractions.slide) = (none, lateral, 0.0);
         self.across.powers = Default::default();
         self.slide_all();
     }

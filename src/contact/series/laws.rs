@@ -5,7 +5,7 @@ use super::constants::Constants;
 use super::contact::{Relaid, SeriesContact};
 use super::hot_layers::SeriesLayers;
 use super::series_line::{SeriesLine, SeriesStart};
-use super::{open, pivoting};
+use super::{along, open};
 use crate::axes::PerAxis;
 use crate::contact::brake::{self, BrakeState};
 use crate::contact::error::ContactError;
@@ -40,7 +40,7 @@ pub fn solve<R>(
         let mut contact = SeriesContact::new(lines, &rigid, Relaid { problem, memory: &memory });
         check_layers(&contact)?;
         std::mem::swap(&mut contact.system, system);
-        let solve = if contact.lines[0].is_sideways() { sideways } else { pivoting::solve };
+        let solve = if contact.lines[0].is_sideways() { sideways } else { along::solve };
         let found = solve(&mut contact);
         std::mem::swap(&mut contact.system, system);
         found?;
@@ -90,12 +90,12 @@ fn next(contact: &SeriesContact, problem: &ContactProblem, states: PerAxis<Brake
 /// Finds tractions along and across and motions, or motions without tractions where no line touches.
 fn sideways(contact: &mut SeriesContact) -> Result<(), ContactError> {
     contact.opened = 0;
-    let Err(error) = cone_search::solve(contact) else { return Ok(()) };
+    let Err(error) = cone_search::solve::<2>(contact) else { return Ok(()) };
     if matches!(open::solve(contact), Ok(true)) {
         return Ok(());
     }
     // A wheel that just touches may do so on some of its lines.
     contact.lines.iter_mut().for_each(SeriesLine::begin_anew);
     (contact.opened, contact.partly) = (0, true);
-    cone_search::solve(contact).map_err(|_| error)
+    cone_search::solve::<2>(contact).map_err(|_| error)
 }

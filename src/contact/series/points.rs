@@ -1,24 +1,19 @@
-//! Shear at points that move with the patch: any of them sticks, or slips in either direction.
+//! Points that move with the patch, at which shear stands: any of them sticks, or slips in any direction.
 //!
 //! Tractions stand at the zeros of `U_N`, `t_i = cos θ_i` with `θ_i = iπ/(N + 1)` from the leading edge on, slips at
 //! `θ_i − π/(2N + 2)`, half a point upstream. For steady rolling the matrix of slips by tractions is that of Cauchy for
-//! interlacing points, of which every principal minor is positive: there is one solution, and it is found by changing the
-//! states of points that contradict friction. Where tractions and slips have the same places odd minors vanish, and the
-//! search goes in circles. Theory: `docs/theory/patch-contact.md`, section 3.
+//! interlacing points, of which every principal minor is positive: there is one solution, which [`crate::contact::cone`]
+//! finds. Where tractions and slips have the same places odd minors vanish, and searches go in circles. Theory:
+//! `docs/theory/patch-contact.md`, section 3.
 
 use super::chebyshev::{TERMS, cauchy_terms, logarithm_terms};
-use super::equations::{Coefficients, ROOM, eliminate};
-use crate::linalg::POINTS;
 use crate::linalg::vectorised::vectorised;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Number of points: that of the terms of a traction.
 pub const COUNT: usize = TERMS;
-/// Excess of shear over friction, or slip against it, over friction at the peak of the pressure, that is round-off \[1].
-const ROUND_OFF: f64 = 1e-9;
-/// Changes of states after which fewer points must contradict friction, until they change one by one.
-const PATIENCE: usize = 4;
-/// Signs of the shear of points that slip, from the leading edge on; 0 where they stick.
+/// Signs of the shear of points that slip, from the leading edge on, or 1 where they slip in two directions; 0 where they
+/// stick.
 pub type Directions = [i8; COUNT];
 
 /// Places of the points, and what tractions there do; places are counted from the middle to the leading edge, over the
@@ -90,11 +85,11 @@ impl PointTables {
     }
 
     /// Terms of the traction with values `q` at the points; the leading edge lies at `t = upstream`.
-    pub fn terms_of(&self, q: &[f64; COUNT], upstream: f64) -> Coefficients {
+    pub fn terms_of(&self, q: &[f64; COUNT], upstream: f64) -> [f64; TERMS] {
         let mut sign = upstream;
-        std::array::from_fn(|k| {
+        self.terms.map(|terms| {
             sign *= upstream;
-            if k < COUNT { sign * self.terms[k].iter().zip(q).map(|(by, q)| by * q).sum::<f64>() } else { 0.0 }
+            sign * terms.iter().zip(q).map(|(by, q)| by * q).sum::<f64>()
         })
     }
 }
@@ -136,132 +131,17 @@ impl Default for PointTables {
     }
 }
 
-/// The tangential problem of one line for the slips of the other lines and motions.
-pub struct PointProblem {
-    /// Slips by the tractions of every point [m/s/Pa].
-    pub by_shear: [[f64; COUNT]; COUNT],
-    /// Slips without shear on this line [m/s].
-    pub known: [f64; COUNT],
-    /// Powers of the place over the half-length of the line at the slips.
-    pub powers: [[f64; COUNT]; POINTS],
-    /// Friction that points bear, and that at the peak of the pressure \[Pa].
-    pub bears: [f64; COUNT],
-    pub most: f64,
-}
-
-/// Shear of a line for given states \[Pa]: under the known slip, then what a unit of each power takes away.
-pub type Shears = [[f64; COUNT]; 1 + POINTS];
-
-impl PointProblem {
-    /// Shear for the given states; `None`: the equations are singular.
-    pub fn shears(&self, directions: &Directions) -> Option<Shears> {
-        let mut shears = [[0.0; COUNT]; 1 + POINTS];
-        let (mut stuck, mut count) = ([0; COUNT], 0);
-        for (j, direction) in directions.iter().enumerate() {
-            if *direction == 0 {
-                (stuck[count], count) = (j, count + 1);
-            }
-            shears[0][j] = f64::from(*direction) * self.bears[j];
-        }
-        let (stuck, slip) = (&stuck[..count], self.slips(&self.known, &shears[0]));
-        let mut columns = [[0.0; ROOM]; COUNT + 1 + POINTS];
-        for (row, i) in stuck.iter().enumerate() {
-            for (column, j) in columns.iter_mut().zip(stuck) {
-                column[row] = self.by_shear[*j][*i];
-            }
-            columns[count][row] = -slip[*i];
-            columns[count + 1..].iter_mut().zip(&self.powers).for_each(|(column, power)| column[row] = power[*i]);
-        }
-        if !eliminate(&mut columns[..count + 1 + POINTS], count) {
-            return None;
-        }
-        for (shear, column) in shears.iter_mut().zip(&columns[count..]) {
-            stuck.iter().zip(column).for_each(|(j, value)| shear[*j] = *value);
-        }
-        Some(shears)
-    }
-
-    /// Slips [m/s] from those without shear.
-    fn slips(&self, without: &[f64; COUNT], shear: &[f64; COUNT]) -> [f64; COUNT] {
-        let mut slips = *without;
-        for (by, q) in self.by_shear.iter().zip(shear) {
-            slips.iter_mut().zip(by).for_each(|(slip, by)| *slip += by * q);
-        }
-        slips
-    }
-
-    /// States that friction asks for, given those with which a shear was found and the slip by all else as a polynomial.
-    pub fn asked(&self, states: &Directions, shear: &[f64; COUNT], others: &[f64; POINTS]) -> Directions {
-        let mut without = self.known;
-        for (power, value) in self.powers.iter().zip(others) {
-            without.iter_mut().zip(power).for_each(|(slip, power)| *slip += value * power);
-        }
-        let (slips, excess) = (self.slips(&without, shear), ROUND_OFF * self.most);
-        std::array::from_fn(|i| {
-            let (q, least) = (shear[i], self.by_shear[i][i].abs().max(f64::MIN_POSITIVE));
-            // Shear that would hold the point.
-            let held = q - slips[i] / least;
-            let beyond = |shear: f64| shear.abs() > self.bears[i] + excess;
-            match states[i] {
-                0 if beyond(q) => q.signum() as i8,
-                0 => 0,
-                state if f64::from(state) * (held - q) >= -excess => state,
-                _ if beyond(held) => held.signum() as i8,
-                _ => 0,
-            }
-        })
-    }
-}
-
-/// Block pivoting: which points change their states (Júdice and Pires, *Comput. Oper. Res.* 21 (1994) 587–596).
-#[derive(Clone, Copy, Debug)]
-pub struct Pivoting {
-    fewest: usize,
-    patience: usize,
-    /// True once all points have been made to stick.
-    anew: bool,
-}
-
-impl Default for Pivoting {
-    fn default() -> Self {
-        Self { fewest: usize::MAX, patience: PATIENCE, anew: false }
-    }
-}
-
-impl Pivoting {
-    /// Changes states of one or several lines to those that friction asks for; `false`: it asks for no others. Where that
-    /// does not lead to fewer of them the search begins once more with all points sticking: under a held force hardly
-    /// anything else tells how fast a patch that slips throughout does so. After that the last one changes alone.
-    pub fn change<'a>(&mut self, lines: impl Iterator<Item = (&'a mut Directions, &'a Directions)>) -> bool {
-        let points = lines.flat_map(|(states, asked)| states.iter_mut().zip(asked));
-        let mut points: Vec<(&mut i8, &i8)> = points.collect();
-        let contradicts = |(state, asked): &(&mut i8, &i8)| **state != **asked;
-        let wrong = points.iter().filter(|point| contradicts(point)).count();
-        if wrong < self.fewest {
-            (self.fewest, self.patience) = (wrong, PATIENCE);
-        } else {
-            self.patience = self.patience.saturating_sub(1);
-        }
-        if self.patience > 0 {
-            points.iter_mut().for_each(|(state, asked)| **state = **asked);
-        } else if !self.anew {
-            points.iter_mut().for_each(|(state, _)| **state = 0);
-            *self = Self { anew: true, ..Self::default() };
-        } else if let Some((state, asked)) = points.iter_mut().rev().find(|point| contradicts(point)) {
-            **state = **asked;
-        }
-        wrong > 0
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::chebyshev::Arch;
     use super::*;
+    use crate::axes::{Axis, PerAxis};
+    use crate::contact::cone::{ConeProblem, FreeMotion, Newton, SlipRows, TangentialCoupling};
+    use crate::linalg::POINTS;
     use crate::multistep::formula;
 
     /// Shear of half-planes in units of friction at the peak of the pressure, rolling to the leading edge with a creepage over
-    /// that at which all slips, by changing the states that contradict friction; and the number of changes.
+    /// that at which all slips; and the times that the law of friction was made linear.
     fn steady(creepage: f64) -> ([f64; COUNT], usize) {
         of_bodies([1.0, 0.0], creepage)
     }
@@ -271,23 +151,38 @@ mod tests {
         let tables = PointTables::new();
         let mut by_shear = tables.slips_by_shear([half_planes, 0.0], [1.0, 0.0]);
         tables.add_layer([-layer, 0.0], &mut by_shear);
-        let problem = PointProblem {
-            by_shear,
-            known: [creepage; COUNT],
-            powers: [[0.0; COUNT]; POINTS],
-            bears: tables.tractions.map(|t| (1.0 - t * t).sqrt()),
-            most: 1.0,
+        let ([shear], _, laws) = solve(cone(by_shear, [creepage; COUNT], 1.0), [[0.0; COUNT]], vec![]).unwrap();
+        (shear, laws)
+    }
+
+    /// Problem of a patch of half-width `half` under Hertz's pressure.
+    fn cone(by_shear: [[f64; COUNT]; COUNT], known: [f64; COUNT], half: f64) -> ConeProblem<COUNT, 1> {
+        let mut powers = vec![[0.0; COUNT]; POINTS];
+        powers[0] = [1.0; COUNT];
+        let rows = SlipRows { by_shear: [by_shear.to_vec()], known: [known], powers };
+        let part = PI / (COUNT + 1) as f64;
+        let sines: [f64; COUNT] = std::array::from_fn(|i| libm::sin((i + 1) as f64 * part));
+        ConeProblem::new(rows, None, &sines.map(|sine| half * part * sine), sines.map(|sine| half * sine), half)
+    }
+
+    /// Shear with what changes of a motion, and the times that the law of friction was made linear.
+    fn solve(
+        problem: ConeProblem<COUNT, 1>,
+        start: [[f64; COUNT]; 1],
+        motions: Vec<FreeMotion<1>>,
+    ) -> Option<([[f64; COUNT]; 1], f64, usize)> {
+        let mut coupling = TangentialCoupling {
+            between: vec![[[[[0.0; POINTS]]; POINTS]]],
+            motions,
+            base: PerAxis::default(),
+            radius: 1.0,
+            shares: vec![1.0],
+            friction: FRAC_PI_2,
         };
-        let mut states = [0; COUNT];
-        for changes in 0..40 {
-            let shear = problem.shears(&states).unwrap()[0];
-            let asked = problem.asked(&states, &shear, &[0.0; POINTS]);
-            if asked == states {
-                return (shear, changes);
-            }
-            states = asked;
-        }
-        panic!("no end at a creepage of {creepage}");
+        let mut problems = [problem];
+        let mut newton = Newton::new(&mut coupling, &mut problems, (&[start], PerAxis::default()));
+        newton.run(1e-11).ok()?;
+        Some((newton.shears[0], newton.rigid.travel, newton.linear_laws))
     }
 
     /// Carter: `F/μP = 1 − (1 − ξ/ξ_s)²`; see `docs/theory/patch-contact.md`, section 3.
@@ -297,13 +192,13 @@ mod tests {
         let (mut worst, mut most) = (0.0_f64, 0);
         for k in -120..=120 {
             let creepage = f64::from(k) / 100.0;
-            let (shear, changes) = steady(creepage);
+            let (shear, laws) = steady(creepage);
             let force = tables.terms_of(&shear, 1.0)[0];
             let carter = -creepage.signum() * (1.0 - (1.0 - creepage.abs().min(1.0)).powi(2));
-            (worst, most) = (worst.max((force - carter).abs()), most.max(changes));
+            (worst, most) = (worst.max((force - carter).abs()), most.max(laws));
             assert!(shear.iter().zip(&tables.tractions).all(|(q, t)| q.abs() <= (1.0 - t * t).sqrt() + 1e-8));
         }
-        println!("Carter {worst:.1e} of friction, at most {most} changes");
+        println!("Carter {worst:.1e} of friction, at most {most} linear laws");
         assert!(worst < 2e-3 && most <= 12);
     }
 
@@ -320,9 +215,9 @@ mod tests {
         let mut worst = 0.0_f64;
         for k in [0.02, 0.1, 0.3, 0.6, 1.0, 1.5, 2.5, 5.0, 20.0] {
             for sign in [1.0, -1.0] {
-                let (shear, changes) = of_bodies([0.0, 1.0], sign * k);
+                let (shear, laws) = of_bodies([0.0, 1.0], sign * k);
                 let force = sign * tables.terms_of(&shear, 1.0)[0];
-                println!("k {k}: {force:.4}, brush {:.4}, {changes} changes", brush(k));
+                println!("k {k}: {force:.4}, brush {:.4}, {laws} linear laws", brush(k));
                 worst = worst.max((force - brush(k)).abs());
             }
         }
@@ -344,10 +239,10 @@ mod tests {
         /// Flexibility of the layer over that of the half-planes.
         layer: f64,
         past: [Arch; 2],
-        /// Way of the step before; the creepage and the states after it.
+        /// Way of the step before; the creepage and the shear after it.
         way: f64,
         creepage: f64,
-        states: Directions,
+        shear: [f64; COUNT],
     }
 
     /// Length over half-widths at which the half-planes end, and mass over that which they move along.
@@ -357,7 +252,7 @@ mod tests {
     impl Rolling {
         fn new(layer: f64) -> Self {
             let past = [Arch { half_width: 1.0, count: COUNT, ..Arch::default() }; 2];
-            Self { tables: PointTables::new(), layer, past, way: 0.0, creepage: 0.0, states: [0; COUNT] }
+            Self { tables: PointTables::new(), layer, past, way: 0.0, creepage: 0.0, shear: [0.0; COUNT] }
         }
 
         /// Displacement under a shear.
@@ -367,8 +262,8 @@ mod tests {
             std::array::from_fn(|i| by_planes(logarithm[i]) + self.layer * density[i])
         }
 
-        /// A step on a patch of half-width `half` with speed 1, or one of the duration `way` at rest; number of changes of the
-        /// states, or `None` if they go in circles.
+        /// A step on a patch of half-width `half` with speed 1, or one of the duration `way` at rest; the times that the law of
+        /// friction was made linear, or `None` if nothing is found.
         fn advance(&mut self, (way, half, rolls): (f64, f64, bool), drive: RollingDrive) -> Option<usize> {
             let time = formula(way, self.way);
             let places = self.tables.slips.map(|t| half * t);
@@ -377,41 +272,26 @@ mod tests {
             let convection = if rolls { 1.0 } else { 0.0 };
             let mut by_shear = self.tables.slips_by_shear([convection, -time.a0 * half / PI], [half, libm::log(REACH)]);
             self.tables.add_layer([-convection * self.layer / half, time.a0 * self.layer], &mut by_shear);
-            let problem = PointProblem {
-                by_shear,
-                known: std::array::from_fn(|i| given + time.a1 * now[i] + time.a2 * before[i]),
-                powers: std::array::from_fn(|p| if p == 0 { [1.0; COUNT] } else { [0.0; COUNT] }),
-                bears: self.tables.tractions.map(|t| half * (1.0 - t * t).sqrt()),
-                most: half,
+            let known = std::array::from_fn(|i| given + time.a1 * now[i] + time.a2 * before[i]);
+            let unit = [std::array::from_fn(|p| if p == 0 { 1.0 } else { 0.0 })];
+            let inertia = MASS * time.a0;
+            let motion = |share: f64| FreeMotion {
+                axis: Axis::Travel,
+                slips: vec![unit],
+                pulls: vec![unit],
+                resistance: PerAxis { travel: inertia, ..PerAxis::default() },
+                missing: inertia * self.creepage - share * FRAC_PI_2 * half * half,
+                drawn: [0.0; 2],
             };
-            let force = |q: &[f64; COUNT]| FRAC_PI_2 * half * self.tables.terms_of(q, 1.0)[0];
-            let (mut pivoting, mut changes) = (Pivoting::default(), 0);
-            loop {
-                let shears = problem.shears(&self.states)?;
-                let further = match drive {
-                    RollingDrive::Creepage(_) => 0.0,
-                    RollingDrive::Force(share) => {
-                        let inertia = MASS * time.a0;
-                        let load = share * FRAC_PI_2 * half * half - inertia * self.creepage;
-                        (force(&shears[0]) - load) / (force(&shears[1]) + inertia)
-                    }
-                };
-                let q: [f64; COUNT] = std::array::from_fn(|i| shears[0][i] - further * shears[1][i]);
-                let mut others = [0.0; POINTS];
-                others[0] = further;
-                let asked = problem.asked(&self.states, &q, &others);
-                if !pivoting.change([(&mut self.states, &asked)].into_iter()) {
-                    let terms = self.tables.terms_of(&q, 1.0);
-                    let terms = std::array::from_fn(|k| terms[k]);
-                    self.past = [Arch { centre: 0.0, half_width: half, count: COUNT, terms }, self.past[0]];
-                    (self.way, self.creepage) = (way, given + further);
-                    return Some(changes);
-                }
-                changes += 1;
-                if changes > 60 {
-                    return None;
-                }
-            }
+            let motions = match drive {
+                RollingDrive::Creepage(_) => vec![],
+                RollingDrive::Force(share) => vec![motion(share)],
+            };
+            let (shear, further, laws) = solve(cone(by_shear, known, half), [self.shear], motions)?;
+            let terms = self.tables.terms_of(&shear[0], 1.0);
+            self.past = [Arch { centre: 0.0, half_width: half, count: COUNT, terms }, self.past[0]];
+            (self.way, self.creepage, self.shear) = (way, given + further, shear[0]);
+            Some(laws)
         }
     }
 
@@ -445,13 +325,13 @@ mod tests {
                     RollingDrive::Creepage(3.0 * random() - 1.5)
                 };
                 match rolling.advance((way, half, rolls), drive) {
-                    Some(changes) => (most, sum, count) = (most.max(changes), sum + changes, count + 1),
+                    Some(laws) => (most, sum, count) = (most.max(laws), sum + laws, count + 1),
                     None => failed += 1,
                 }
             }
         }
         println!(
-            "layer {layer}: {count} steps, {:.2} changes each, at most {most}; {failed} failed",
+            "layer {layer}: {count} steps, {:.2} linear laws each, at most {most}; {failed} failed",
             sum as f64 / count as f64
         );
         assert_eq!(failed, 0);

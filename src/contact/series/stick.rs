@@ -39,12 +39,9 @@ const BEHIND: f64 = 0.03;
 /// are off by about twice as much. In equilibria, which others improve from solution to solution, it is smaller.
 const LEFT_OVER: f64 = 1e-10;
 const LEFT_OF_SHEAR: f64 = 1e-8;
-const TOLERANCE: f64 = 2e-11;
 const AT_REST: f64 = 1e-12;
 /// Largest change that ends it where rounding allows no more.
 const ROUNDING: f64 = 1e-9;
-/// Weight of the change of pressures before the last solution of the tangential problem \[1]; that after it is far smaller.
-const PRESSED: f64 = 0.1;
 /// Iterations of the normal problem before those of both, and the change that makes them needless.
 const WARM: usize = 3;
 const CLOSE: f64 = 1e-3;
@@ -94,36 +91,29 @@ impl SeriesContact<'_> {
 /// When iterations end.
 pub struct Settling {
     tolerance: f64,
-    /// Weight of the change of pressures \[1].
-    pressed: f64,
     /// Change of the last iteration.
     last: f64,
 }
 
 impl Settling {
-    /// An end by the changes of iterations.
-    pub fn new(contact: &SeriesContact) -> Self {
-        Self::within(TOLERANCE, PRESSED, contact)
-    }
-
     /// An end by the errors that iterations leave.
     pub fn by_errors(contact: &SeriesContact) -> Self {
-        Self::within(LEFT_OVER, BEHIND, contact)
+        Self::within(LEFT_OVER, contact)
     }
 
-    /// An end by the errors that iterations with two directions of shear leave.
-    pub fn of_shear(contact: &SeriesContact) -> Self {
-        Self::within(LEFT_OF_SHEAR, BEHIND, contact)
+    /// An end by the errors that iterations with shear at points in one or two `directions` leave.
+    pub fn of_shear(contact: &SeriesContact, directions: usize) -> Self {
+        Self::within(if directions == 1 { LEFT_OVER } else { LEFT_OF_SHEAR }, contact)
     }
 
-    fn within(tolerance: f64, pressed: f64, contact: &SeriesContact) -> Self {
+    fn within(tolerance: f64, contact: &SeriesContact) -> Self {
         let stationary = contact.lines[0].problem.line.time.is_stationary();
-        Self { tolerance: if stationary { AT_REST } else { tolerance }, pressed, last: f64::INFINITY }
+        Self { tolerance: if stationary { AT_REST } else { tolerance }, last: f64::INFINITY }
     }
 
     /// Error that an iteration leaves, by the relative change of the pressure and the change or error of all else \[1].
     pub fn error(&self, normal: f64, tangential: f64) -> f64 {
-        tangential.max(self.pressed * normal)
+        tangential.max(BEHIND * normal)
     }
 
     /// True if an error is the last one that counts.

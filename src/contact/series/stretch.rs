@@ -6,7 +6,6 @@
 //! without pivots keeps the sign of the diagonal and makes it larger.
 
 use super::chebyshev::{Arch, TERMS};
-use super::equations::Coefficients;
 use super::moments::PlaceFactor;
 use super::series_line::SeriesLine;
 use super::state::Tractions;
@@ -43,16 +42,8 @@ pub struct Stretch {
 }
 
 impl Stretch {
-    /// Tractions on a `stretch` of a line of a half-length `length` \[m] with the given terms by solution, without a root.
-    pub fn new(stretch: &Arch, length: f64, solutions: &[Coefficients; 1 + POINTS]) -> Self {
-        let mut terms = [BySolution::default(); ROOT + 1];
-        for (k, terms) in terms[..TERMS].iter_mut().enumerate() {
-            terms.iter_mut().zip(solutions).for_each(|(term, solution)| *term = solution[k]);
-        }
-        Self::of_terms(stretch, length, ByPowers::default(), terms)
-    }
-
-    /// Tractions with the given terms, and moments of the root with the powers \[m].
+    /// Tractions on a `stretch` of a line of a half-length `length` \[m], with the given terms and moments of the root with the
+    /// powers \[m].
     fn of_terms(stretch: &Arch, length: f64, root: ByPowers, terms: [BySolution; ROOT + 1]) -> Self {
         let (half, of_terms) = (stretch.half_width, PlaceFactor::new(stretch, length).moments());
         let mut moments = [root; POINTS + 1];
@@ -72,8 +63,8 @@ impl Stretch {
     }
 
     /// Terms of the shear and the root under a slip besides the known one \[Pa].
-    pub fn tractions(&self, slip: &ByPowers) -> Coefficients {
-        let mut x = Coefficients::default();
+    pub fn tractions(&self, slip: &ByPowers) -> [f64; ROOT + 1] {
+        let mut x = [0.0; ROOT + 1];
         for (x, [known, by @ ..]) in x.iter_mut().zip(&self.terms) {
             *x = known - slip.iter().zip(by).map(|(slip, by)| slip * by).sum::<f64>();
         }
@@ -161,7 +152,7 @@ impl SeriesLine<'_> {
 
     /// Takes the terms of the shear; returns the strength of the traction `√((1 − t)/(1 + t))` that holds the end of
     /// the stretch \[Pa]: no friction can, so that it vanishes in a solution.
-    pub fn take(&mut self, x: &Coefficients) -> f64 {
+    pub fn take(&mut self, x: &[f64; ROOT + 1]) -> f64 {
         self.tractions.stick.terms.copy_from_slice(&x[..TERMS]);
         x[ROOT]
     }

@@ -7,6 +7,7 @@ use super::contact::{MOST_LINES, SeriesContact};
 use super::series_line::SeriesLine;
 use super::stretch::{BySolution, Stretch};
 use crate::axes::Axis;
+use crate::contact::cone::Polynomials;
 use crate::contact::error::ContactError;
 use crate::contact::flexibility::{ByMoments, ByPowers};
 use crate::linalg::vectorised::vectorised;
@@ -116,12 +117,15 @@ impl SeriesContact<'_> {
     }
 
     /// Parts of unit moments of the shear of a line, along and across, in the balance of a motion \[1, m].
-    pub fn pulls(&self, axis: Axis, line: usize) -> [ByPowers; 2] {
+    pub fn pulls<const D: usize>(&self, axis: Axis, line: usize) -> Polynomials<D> {
         let Pull { force, moments } = self.pull_along(axis, line);
-        let (mut along, mut across) = (moments.map(|by| -by), ByPowers::default());
-        along[0] += force;
-        across[0] = if axis == Axis::Lateral { self.lines[line].problem.line.share } else { 0.0 };
-        [along, across]
+        let mut pulls = [ByPowers::default(); D];
+        pulls[0] = moments.map(|by| -by);
+        pulls[0][0] += force;
+        if let Some(across) = pulls.get_mut(1) {
+            across[0] = if axis == Axis::Lateral { self.lines[line].problem.line.share } else { 0.0 };
+        }
+        pulls
     }
 
     /// Part of a shear along of a line in the balance of a motion.

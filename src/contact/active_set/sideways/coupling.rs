@@ -5,7 +5,7 @@
 
 use super::super::search::ActiveSet;
 use crate::axes::{Axis, PerAxis};
-use crate::contact::cone::{FreeMotion, SLIPS, TangentialCoupling};
+use crate::contact::cone::{ByPolynomials, FreeMotion, Polynomials, TangentialCoupling};
 use crate::contact::flexibility::{Between, ByMoments, ByPowers, slip_of_field};
 use crate::contact::line::contact_line::ContactLine;
 use crate::linalg::vectorised::dot;
@@ -72,7 +72,7 @@ struct SmoothSlips {
 
 impl ActiveSet<'_> {
     /// Coupling of all lines and free motions in the present iterate, but for what their balances miss.
-    pub fn coupling(&mut self) -> TangentialCoupling {
+    pub fn coupling(&mut self) -> TangentialCoupling<2> {
         let smooth: Vec<_> = self.lines.iter().map(|line| self.smooth_slips(line)).collect();
         let axes: Vec<Axis> = self.free_axes().collect();
         TangentialCoupling {
@@ -91,10 +91,10 @@ impl ActiveSet<'_> {
     }
 
     /// Takes present motions, friction and what balances miss without the present shear.
-    pub fn take_balances(&mut self, coupling: &mut TangentialCoupling) {
+    pub fn take_balances(&mut self, coupling: &mut TangentialCoupling<2>) {
         coupling.base = self.lines[0].traction.rigid;
         coupling.friction = self.friction_of_all().max(LEAST_FRICTION * self.problem.nominal_load);
-        let moments: Vec<[f64; SLIPS]> = self.lines.iter().map(moments).collect();
+        let moments: Vec<_> = self.lines.iter().map(moments).collect();
         for motion in &mut coupling.motions {
             motion.missing = -self.residual(motion.axis) - motion.pulls(&moments);
         }
@@ -132,13 +132,13 @@ impl ActiveSet<'_> {
 
     /// Slips of every line by unit moments of every other one: through the bodies, and as lines of a patch. A line itself
     /// has what its lateral forces do along, and those along across.
-    fn between(&self, smooth: &[SmoothSlips]) -> Vec<[[f64; SLIPS]; SLIPS]> {
+    fn between(&self, smooth: &[SmoothSlips]) -> Vec<ByPolynomials<2>> {
         let count = self.lines.len();
         (0..count * count)
             .map(|pair| {
                 let (at, by) = (pair / count, pair % count);
                 let (line, other) = (&self.lines[at], &self.lines[by]);
-                let mut slips = [[0.0; SLIPS]; SLIPS];
+                let mut slips = ByPolynomials::default();
                 if at != by {
                     let by_bodies = through_bodies(line, &smooth[at], other, &smooth[by]);
                     add(&by_bodies, [0, 0], &mut slips);
@@ -162,16 +162,16 @@ impl ActiveSet<'_> {
     }
 
     /// A motion that is free, about the present iterate.
-    fn free_motion(&mut self, axis: Axis, smooth: &[SmoothSlips]) -> FreeMotion {
+    fn free_motion(&mut self, axis: Axis, smooth: &[SmoothSlips]) -> FreeMotion<2> {
         let Self { lines, axes, memory, problem, .. } = self;
         let resistance = axes.row(axis, lines, &mut memory.rows).motions;
         let pull = |((line, smooth), row): ((&ContactLine, &SmoothSlips), &Vec<f64>)| match axis {
-            Axis::Lateral => joined(ByPowers::default(), [line.problem.share, 0.0]),
-            _ => joined(smooth.sampled.polynomial(|i| -row[line.grid.port(i)]), [0.0; 2]),
+            Axis::Lateral => [ByPowers::default(), first_two([line.problem.share, 0.0])],
+            _ => [smooth.sampled.polynomial(|i| -row[line.grid.port(i)]), ByPowers::default()],
         };
         let slip = |(line, smooth): (&ContactLine, &SmoothSlips)| {
             let turned = problem.spin.by(axis) * line.problem.patch.map_or(0.0, |patch| patch.half_length);
-            joined(smooth.by_motions[axis], [if axis == Axis::Lateral { 1.0 } else { 0.0 }, turned])
+            [smooth.by_motions[axis], first_two([if axis == Axis::Lateral { 1.0 } else { 0.0 }, turned])]
         };
         FreeMotion {
             axis,
@@ -184,15 +184,16 @@ impl ActiveSet<'_> {
     }
 }
 
-/// Coefficients along, and the first ones across.
-fn joined(along: ByPowers, across: [f64; 2]) -> [f64; SLIPS] {
-    std::array::from_fn(|k| if k < POINTS { along[k] } else { across.get(k - POINTS).copied().unwrap_or(0.0) })
+/// Polynomial of the first two coefficients.
+fn first_two([first, second]: [f64; 2]) -> ByPowers {
+    let mut polynomial = ByPowers::default();
+    (polynomial[0], polynomial[1]) = (first, second);
+    polynomial
 }
 
-/// Moments of the present shear of a line, along, then across [N/m].
-fn moments(line: &ContactLine) -> [f64; SLIPS] {
-    let (along, across) = (&line.iterate.others.moments, &line.iterate.across.moments);
-    std::array::from_fn(|k| if k < POINTS { along[k] } else { across[k - POINTS] })
+/// Moments of the present shear of a line [N/m].
+fn moments(line: &ContactLine) -> Polynomials<2> {
+    [line.iterate.others.moments, line.iterate.across.moments]
 }
 
 /// Slips along of a line by unit moments of another one through the bodies.
@@ -216,8 +217,8 @@ fn slip_by_moments(between: &Between, rates: [f64; 2], half_length: f64) -> ByMo
 }
 
 /// Adds slips in a direction by moments of a direction, those along before those across.
-fn add(by_moments: &ByMoments, [at, by]: [usize; 2], slips: &mut [[f64; SLIPS]; SLIPS]) {
-    for (slips, by_moment) in slips[POINTS * by..].iter_mut().zip(by_moments) {
-        slips[POINTS * at..].iter_mut().zip(by_moment).for_each(|(slip, by)| *slip += by);
+fn add(by_moments: &ByMoments, [at, by]: [usize; 2], slips: &mut ByPolynomials<2>) {
+    for (slips, by_moment) in slips[by].iter_mut().zip(by_moments) {
+        slips[at].iter_mut().zip(by_moment).for_each(|(slip, by)| *slip += by);
     }
 }

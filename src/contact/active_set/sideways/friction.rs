@@ -6,7 +6,7 @@
 use super::super::search::ActiveSet;
 use super::slips;
 use crate::axes::{Axis, PerAxis};
-use crate::contact::cone::{AlongAcross, ConeProblem, ConeVerdict, Linearised, Newton, TangentialCoupling};
+use crate::contact::cone::{ByDirection, ConeProblem, ConeVerdict, Linearised, Newton, TangentialCoupling};
 use crate::contact::error::ContactError;
 use crate::contact::line::contact_line::ContactLine;
 
@@ -22,11 +22,11 @@ const NEAR: f64 = 0.1;
 pub struct Prepared<const N: usize> {
     /// Closed nodes of every line.
     nodes: Vec<Vec<usize>>,
-    shears: Vec<AlongAcross<N>>,
-    problems: Vec<ConeProblem<N>>,
-    coupling: TangentialCoupling,
+    shears: Vec<ByDirection<N, 2>>,
+    problems: Vec<ConeProblem<N, 2>>,
+    coupling: TangentialCoupling<2>,
     /// Linear law of before.
-    linear: Option<Linearised<N>>,
+    linear: Option<Linearised<N, 2>>,
     /// Violation of friction by the present shear \[1].
     violation: f64,
 }

@@ -1,13 +1,13 @@
 //! The problem of friction on one line under given normal forces: slips of its closed nodes by their own shear.
 
-use crate::contact::cone::{AlongAcross, ConeProblem, SLIPS, SlipRows};
+use crate::contact::cone::{ByDirection, ConeProblem, Polynomials, SlipRows};
 use crate::contact::flexibility::{at, slip_of_field};
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::NodeStatus;
 use crate::linalg::POINTS;
 
 /// Shear at the closed `nodes` of a line, along and across [N/m].
-pub fn shears<const N: usize>(line: &ContactLine, nodes: &[usize]) -> AlongAcross<N> {
+pub fn shears<const N: usize>(line: &ContactLine, nodes: &[usize]) -> ByDirection<N, 2> {
     let mut shears = [[0.0; N]; 2];
     for (place, &i) in nodes.iter().enumerate() {
         let shear = line.shear(i);
@@ -17,7 +17,7 @@ pub fn shears<const N: usize>(line: &ContactLine, nodes: &[usize]) -> AlongAcros
 }
 
 /// Gives a line the shear at its closed `nodes`, and their states.
-pub fn give<const N: usize>(line: &mut ContactLine, nodes: &[usize], shear: &AlongAcross<N>, states: &[i8; N]) {
+pub fn give<const N: usize>(line: &mut ContactLine, nodes: &[usize], shear: &ByDirection<N, 2>, states: &[i8; N]) {
     line.state.across.force.fill(0.0);
     for (place, &i) in nodes.iter().enumerate() {
         let port = line.grid.port(i);
@@ -32,7 +32,7 @@ pub fn give<const N: usize>(line: &mut ContactLine, nodes: &[usize], shear: &Alo
 }
 
 /// Problem of a line with the slips of its closed `nodes` by their own shear.
-pub fn problem<const N: usize>(line: &ContactLine, nodes: &[usize]) -> ConeProblem<N> {
+pub fn problem<const N: usize>(line: &ContactLine, nodes: &[usize]) -> ConeProblem<N, 2> {
     let weights = std::array::from_fn(|place| if place < nodes.len() { 1.0 } else { 0.0 });
     ConeProblem::new(slip_rows(line, nodes), None, &weights, [0.0; N], 0.0)
 }
@@ -42,8 +42,8 @@ pub fn problem<const N: usize>(line: &ContactLine, nodes: &[usize]) -> ConeProbl
 pub fn take<const N: usize>(
     line: &ContactLine,
     nodes: &[usize],
-    problem: &mut ConeProblem<N>,
-    (shear, others): (&AlongAcross<N>, &[f64; SLIPS]),
+    problem: &mut ConeProblem<N, 2>,
+    (shear, others): (&ByDirection<N, 2>, &Polynomials<2>),
 ) {
     let (mut slips, mut bears) = ([[0.0; N]; 2], [0.0; N]);
     for (place, &i) in nodes.iter().enumerate() {
@@ -54,7 +54,7 @@ pub fn take<const N: usize>(
 }
 
 /// Slips of the closed `nodes` by their own shear.
-fn slip_rows<const N: usize>(line: &ContactLine, nodes: &[usize]) -> SlipRows<N> {
+fn slip_rows<const N: usize>(line: &ContactLine, nodes: &[usize]) -> SlipRows<N, 2> {
     let mut rows = SlipRows {
         by_shear: [vec![[0.0; N]; N], vec![[0.0; N]; N]],
         known: [[0.0; N]; 2],
