@@ -49,14 +49,15 @@ impl LineBefore {
 impl Guess {
     /// Sets closed nodes, gaps, normal forces and height of the hub to those that belong to the shear forces and
     /// velocities at hand, where the surfaces are uneven, then the displacements to these forces: lever arms of the step
-    /// before would leave a moment that takes an iteration more. Its `memory` holds the coefficients of all ports.
+    /// before would leave a moment that takes an iteration more. `rows` is memory for the coefficients of all ports.
     pub fn find(
         &mut self,
         lines: &mut [ContactLine],
         axes: &Axes,
         rules: &Rules,
         pressing: &mut PressureSearch,
-        memory: (&mut LinearSolver, &mut [Vec<f64>]),
+        solver: &mut LinearSolver,
+        rows: &mut [Vec<f64>],
     ) {
         let skipped = |line: &ContactLine| line.given.rail_slope.is_empty() || line.problem.time.is_stationary();
         if lines.iter().all(skipped) {
@@ -64,7 +65,7 @@ impl Guess {
         }
         self.starts.resize_with(lines.len(), LineBefore::default);
         self.starts.iter_mut().zip(&*lines).for_each(|(start, line)| start.take(line));
-        if !matches!(pressing.press(lines, axes, rules, GUESSED, memory), Ok(true)) {
+        if !matches!(pressing.press(lines, axes, rules, GUESSED, solver, rows), Ok(true)) {
             self.starts.iter().zip(lines).for_each(|(start, line)| start.give_back(line));
             return;
         }

@@ -56,7 +56,8 @@ impl PressureSearch {
         axes: &Axes,
         rules: &Rules,
         thoroughness: Thoroughness,
-        (solver, rows): (&mut LinearSolver, &mut [Vec<f64>]),
+        solver: &mut LinearSolver,
+        rows: &mut [Vec<f64>],
     ) -> Result<bool, ContactError> {
         lines.iter_mut().for_each(ContactLine::update_rim);
         self.take_shear(lines, axes);

@@ -140,7 +140,7 @@ impl<'a> ActiveSet<'a> {
     fn guess_closed(&mut self) {
         let SearchMemory { rows, guess, pressing, solver, .. } = &mut *self.memory;
         let rules = Rules::new(&self.lines[0], self.penalties[0], self.problem.nominal_load, 1.0, false);
-        guess.find(&mut self.lines, &self.axes, &rules, pressing, (solver, rows));
+        guess.find(&mut self.lines, &self.axes, &rules, pressing, solver, rows);
     }
 
     /// Finds the states of all nodes at the friction coefficients of their slips; returns the iterations until states were

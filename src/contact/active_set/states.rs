@@ -58,7 +58,7 @@ pub(super) fn update(line: &mut ContactLine, rules: &Rules, last: bool, before: 
     let overloaded = !last && is_overloaded(line);
     let mut changed = false;
     for i in (0..line.grid.len()).rev() {
-        let new = new_state(line, i, rules, (overloaded, last), before);
+        let new = new_state(line, i, rules, overloaded, last, before);
         let yields = new.is_active() && yields(line, i, rules.force);
         changed |= new != before[i] || yields != line.state.yielded[i];
         line.state.status[i] = new;
@@ -76,7 +76,8 @@ fn new_state(
     line: &ContactLine,
     i: usize,
     rules: &Rules,
-    (overloaded, one_by_one): (bool, bool),
+    overloaded: bool,
+    one_by_one: bool,
     before: &[NodeStatus],
 ) -> NodeStatus {
     let old = before[i];

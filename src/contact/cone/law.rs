@@ -211,7 +211,8 @@ impl<const N: usize, const D: usize> ConeProblem<N, D> {
         &mut self,
         slips: ByDirection<N, D>,
         bears: [f64; N],
-        (shear, others): (&ByDirection<N, D>, &Polynomials<D>),
+        shear: &ByDirection<N, D>,
+        others: &Polynomials<D>,
     ) {
         self.rows.known = [[0.0; N]; D];
         let linear = self.rows.slips(shear, others);

@@ -57,7 +57,8 @@ impl<'a, const N: usize, const D: usize> Newton<'a, N, D> {
     pub fn new(
         coupling: &'a mut TangentialCoupling<D>,
         problems: &'a mut [ConeProblem<N, D>],
-        (shears, motion): (&[ByDirection<N, D>], PerAxis<f64>),
+        shears: &[ByDirection<N, D>],
+        motion: PerAxis<f64>,
     ) -> Self {
         let rigid = PerAxis::from_fn(|axis| coupling.base[axis] + motion[axis]);
         let (slips, verdicts, unbalance) = Default::default();
@@ -327,7 +328,7 @@ mod tests {
             friction: FRAC_PI_2,
         };
         let mut problems = [problem];
-        let mut newton = Newton::new(&mut coupling, &mut problems, (&[[[0.0; N]; 2]], PerAxis::default()));
+        let mut newton = Newton::new(&mut coupling, &mut problems, &[[[0.0; N]; 2]], PerAxis::default());
         newton.run(1e-12).unwrap();
         let (shear, lateral) = (newton.shears[0], newton.rigid.lateral);
         let moments = problems[0].moments(&shear).map(|moments| moments.map(|moment| moment / FRAC_PI_2));

@@ -114,7 +114,7 @@ impl<const D: usize> ConeSearch<D> {
             self.most[k] = now;
         }
         let mut coupling = contact.coupling();
-        let mut newton = Newton::new(&mut coupling, &mut problems, (&self.uncorrected, self.uncorrected_motion));
+        let mut newton = Newton::new(&mut coupling, &mut problems, &self.uncorrected, self.uncorrected_motion);
         let [without, with] = &mut self.linear;
         newton.linear = without.take();
         let mut violation = newton.largest();

@@ -151,7 +151,8 @@ fn rest_where_points_stick(line: &SeriesLine, slips: &mut [[f64; POWER]; 2]) {
 /// Moves the histories on and takes the power: that of friction at the end of the step [W/m] and its energy in the step
 /// [J/m].
 fn remember(
-    (line, [growth, growth_across]): (&SeriesLine, [ByPowers; 2]),
+    line: &SeriesLine,
+    [growth, growth_across]: [ByPowers; 2],
     force: &[f64; POWER],
     state: &mut SeriesState,
     history: &mut LineHistory,
@@ -198,13 +199,14 @@ fn remember(
 /// Writes the traction, the history and the memory, for which `growth` is the change of the displacement by the lines
 /// of the patch with the size of this one; returns the elastic energy of the line's own flexibility [J/m].
 pub(super) fn finish(
-    (line, growth): (&SeriesLine, [ByPowers; 2]),
+    line: &SeriesLine,
+    growth: [ByPowers; 2],
     state: &mut SeriesState,
     history: &mut LineHistory,
     traction: &mut Traction,
 ) -> f64 {
     let (_, force) = line.slipping();
-    let [friction, work] = remember((line, growth), &force, state, history);
+    let [friction, work] = remember(line, growth, &force, state, history);
     traction.friction.coefficient = line.friction;
     let power = traction.friction.dissipate(friction, work, line.problem.line.duration);
     traction.friction.tread_slip = line.tread_slip();

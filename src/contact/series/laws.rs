@@ -27,7 +27,8 @@ const MOST_LAYOUTS: usize = 30;
 pub fn solve<R>(
     constants: &Constants,
     problem: &ContactProblem,
-    (starts, system): (&[SeriesStart], &mut DenseSystem),
+    starts: &[SeriesStart],
+    system: &mut DenseSystem,
     finish: impl FnOnce(&SeriesContact) -> R,
 ) -> Result<R, ContactError> {
     let mut states = brake::founding(&problem.rigid);

@@ -180,7 +180,7 @@ mod tests {
             friction: FRAC_PI_2,
         };
         let mut problems = [problem];
-        let mut newton = Newton::new(&mut coupling, &mut problems, (&[start], PerAxis::default()));
+        let mut newton = Newton::new(&mut coupling, &mut problems, &[start], PerAxis::default());
         newton.run(1e-11).ok()?;
         Some((newton.shears[0], newton.rigid.travel, newton.linear_laws))
     }

@@ -139,12 +139,12 @@ impl SeriesSolver {
             found.ports = start.ports;
         }
         let ContactScratch { series, linear_laws, .. } = scratch;
-        laws::solve(&self.constants, problem, (&begun, series), |contact| {
+        laws::solve(&self.constants, problem, &begun, series, |contact| {
             *linear_laws = contact.linear_laws;
             for ((at, line), found) in contact.lines.iter().enumerate().zip(&mut *found) {
                 let ContactState { traction, history, energy, solver, .. } = &mut **found;
                 let SolverState::Series(state) = solver else { continue };
-                *energy = finish::finish((line, contact.growth(at)), state, history, traction);
+                *energy = finish::finish(line, contact.growth(at), state, history, traction);
             }
         })?;
         for ((line, found), begun) in problem.lines.iter().zip(&*found).zip(&begun) {

@@ -62,16 +62,16 @@ impl<const N: usize> Prepared<N> {
         search.take_balances(coupling);
         let moments: Vec<_> = problems.iter().zip(&*shears).map(|(problem, shear)| problem.moments(shear)).collect();
         for (k, (line, problem)) in search.lines.iter().zip(&mut *problems).enumerate() {
-            slips::take(line, &nodes[k], problem, (&shears[k], &coupling.by_lines(k, &moments)));
+            slips::take(line, &nodes[k], problem, &shears[k], &coupling.by_lines(k, &moments));
         }
-        self.violation = Newton::new(coupling, problems, (&*shears, PerAxis::default())).largest();
+        self.violation = Newton::new(coupling, problems, shears, PerAxis::default()).largest();
     }
 
     /// Finds shear and motions and gives them to the `search`; returns how far friction and balances were violated before
     /// \[1].
     pub fn shear(&mut self, search: &mut ActiveSet, linear_laws: &mut usize) -> Result<f64, ContactError> {
         let Self { nodes, shears, problems, coupling, linear, violation } = self;
-        let mut newton = Newton::new(coupling, problems, (&*shears, PerAxis::default()));
+        let mut newton = Newton::new(coupling, problems, shears, PerAxis::default());
         newton.linear = linear.take();
         newton.run((SHARE * *violation).clamp(TOLERANCE, ROUGHEST))?;
         *linear_laws += newton.linear_laws;

@@ -122,7 +122,7 @@ impl ActiveSet<'_> {
             states::support(lines);
         }
         let SearchMemory { pressing, solver, rows, .. } = &mut **memory;
-        let settled = pressing.press(lines, axes, &rules, PRESSED, (solver, rows))?;
+        let settled = pressing.press(lines, axes, &rules, PRESSED, solver, rows)?;
         for line in lines.iter_mut() {
             for i in 0..line.grid.len() {
                 if !line.state.status[i].is_active() {

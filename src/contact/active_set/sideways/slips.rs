@@ -43,14 +43,15 @@ pub fn take<const N: usize>(
     line: &ContactLine,
     nodes: &[usize],
     problem: &mut ConeProblem<N, 2>,
-    (shear, others): (&ByDirection<N, 2>, &Polynomials<2>),
+    shear: &ByDirection<N, 2>,
+    others: &Polynomials<2>,
 ) {
     let (mut slips, mut bears) = ([[0.0; N]; 2], [0.0; N]);
     for (place, &i) in nodes.iter().enumerate() {
         (slips[0][place], slips[1][place]) = (line.state.slip[i], line.state.across.slip[i]);
         bears[place] = line.friction(i) * line.normal(i).max(0.0);
     }
-    problem.renew(slips, bears, (shear, others));
+    problem.renew(slips, bears, shear, others);
 }
 
 /// Slips of the closed `nodes` by their own shear.
