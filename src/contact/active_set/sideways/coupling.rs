@@ -90,13 +90,12 @@ impl ActiveSet<'_> {
         Axis::along().filter(|axis| self.axes.seeks(*axis) && !self.axes.holds(*axis))
     }
 
-    /// Takes present motions, friction and what balances miss without the present shear.
-    pub fn take_balances(&mut self, coupling: &mut TangentialCoupling<2>) {
+    /// Takes present motions, friction and what balances miss without the present shear, which has these moments.
+    pub fn take_balances(&mut self, coupling: &mut TangentialCoupling<2>, moments: &[Polynomials<2>]) {
         coupling.base = self.lines[0].traction.rigid;
         coupling.friction = self.friction_of_all().max(LEAST_FRICTION * self.problem.nominal_load);
-        let moments: Vec<_> = self.lines.iter().map(moments).collect();
         for motion in &mut coupling.motions {
-            motion.missing = -self.residual(motion.axis) - motion.pulls(&moments);
+            motion.missing = -self.residual(motion.axis) - motion.pulls(moments);
         }
     }
 
@@ -189,11 +188,6 @@ fn first_two([first, second]: [f64; 2]) -> ByPowers {
     let mut polynomial = ByPowers::default();
     (polynomial[0], polynomial[1]) = (first, second);
     polynomial
-}
-
-/// Moments of the present shear of a line [N/m].
-fn moments(line: &ContactLine) -> Polynomials<2> {
-    [line.iterate.others.moments, line.iterate.across.moments]
 }
 
 /// Slips along of a line by unit moments of another one through the bodies.

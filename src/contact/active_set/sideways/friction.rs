@@ -59,8 +59,8 @@ impl<const N: usize> Prepared<N> {
     fn take(&mut self, search: &mut ActiveSet) {
         let Self { nodes, shears, problems, coupling, .. } = self;
         *shears = search.lines.iter().zip(&*nodes).map(|(line, nodes)| slips::shears(line, nodes)).collect();
-        search.take_balances(coupling);
         let moments: Vec<_> = problems.iter().zip(&*shears).map(|(problem, shear)| problem.moments(shear)).collect();
+        search.take_balances(coupling, &moments);
         for (k, (line, problem)) in search.lines.iter().zip(&mut *problems).enumerate() {
             slips::take(line, &nodes[k], problem, &shears[k], &coupling.by_lines(k, &moments));
         }
