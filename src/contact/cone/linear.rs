@@ -26,6 +26,7 @@ struct LinearLine<const N: usize, const D: usize> {
     system: DenseSystem,
     /// Shear that a unit of each coefficient of the polynomials of the slip takes away \[Pa], and its moments.
     responses: Vec<ByDirection<N, D>>,
+    /// By moment, then by coefficient.
     moments: ByPolynomials<D>,
 }
 
@@ -94,8 +95,11 @@ impl<const N: usize, const D: usize> LinearLine<N, D> {
                 response.iter_mut().zip(along).for_each(|(shear, along)| shear[*point] += along * value);
             }
         }
-        let moments = line.moments.as_flattened_mut().iter_mut().zip(&line.responses);
-        moments.for_each(|(moments, response)| *moments = problem.moments(response));
+        for (k, response) in line.responses.iter().enumerate() {
+            let of_response = problem.moments(response);
+            let moments = line.moments.as_flattened_mut().iter_mut().zip(of_response.as_flattened());
+            moments.for_each(|(by_coefficient, moment)| by_coefficient.as_flattened_mut()[k] = *moment);
+        }
         Some(line)
     }
 
@@ -224,9 +228,10 @@ impl<const N: usize, const D: usize> Linearised<N, D> {
         let (count, all) = (lines.len(), Self::SLIPS * lines.len());
         let mut system = DenseSystem::default();
         system.reset(all + motions.len());
+        let mut slips = [[[ByPowers::default(); D]; POINTS]; D];
         for at in 0..count {
             for (by, line) in lines.iter().enumerate() {
-                let slips = slips_by_slips(&between[count * at + by], &line.moments);
+                slips_by_slips(&between[count * at + by], &line.moments, &mut slips);
                 for (p, slips) in slips.as_flattened().iter().enumerate() {
                     let row = &mut system.row(Self::SLIPS * at + p).0[Self::SLIPS * by..];
                     row[..Self::SLIPS].copy_from_slice(slips.as_flattened());
@@ -243,8 +248,10 @@ impl<const N: usize, const D: usize> Linearised<N, D> {
         for (i, motion) in motions.iter().enumerate() {
             let (row, _) = system.row(all + i);
             for (by, line) in lines.iter().enumerate() {
-                let row = row[Self::SLIPS * by..][..Self::SLIPS].iter_mut();
-                row.zip(line.moments.as_flattened()).for_each(|(value, moments)| *value = motion.pull(by, moments));
+                let row = &mut row[Self::SLIPS * by..][..Self::SLIPS];
+                for (pull, moments) in motion.pulls[by].as_flattened().iter().zip(line.moments.as_flattened()) {
+                    row.iter_mut().zip(moments.as_flattened()).for_each(|(value, moment)| *value += pull * moment);
+                }
             }
             for (column, other) in motions.iter().enumerate() {
                 row[all + column] = motion.resistance(other.axis);
@@ -293,31 +300,22 @@ impl<const N: usize, const D: usize> Linearised<N, D> {
 }
 
 vectorised! {
-    /// Coefficients of slips, row by row, that a line takes from units of those of another one, with the moments of whose
-    /// shear these come.
+    /// Writes coefficients of slips, row by row, that a line takes from units of those of another one, with the moments of
+    /// whose shear these come.
     fn slips_by_slips<'a, S, const D: usize>(
         _simd,
         between: &'a ByPolynomials<D>,
         moments: &'a ByPolynomials<D>,
-    ) -> ByPolynomials<D> {
-        let nothing = [[[ByPowers::default(); D]; POINTS]; D];
-        let (mut by_moment, mut slips) = (nothing, nothing);
-        for (k, moments) in moments.as_flattened().iter().enumerate() {
-            for (by_moment, moment) in by_moment.as_flattened_mut().iter_mut().zip(moments.as_flattened()) {
-                by_moment.as_flattened_mut()[k] = *moment;
-            }
-        }
+        slips: &'a mut ByPolynomials<D>,
+    ) {
         for (p, slips) in slips.as_flattened_mut().iter_mut().enumerate() {
             let mut sums = [ByPowers::default(); D];
-            for (between, by_moment) in between.as_flattened().iter().zip(by_moment.as_flattened()) {
+            for (between, moments) in between.as_flattened().iter().zip(moments.as_flattened()) {
                 let (by, sums) = (between.as_flattened()[p], sums.as_flattened_mut());
-                for (sum, by_moment) in sums.iter_mut().zip(by_moment.as_flattened()) {
-                    *sum += by * by_moment;
-                }
+                sums.iter_mut().zip(moments.as_flattened()).for_each(|(sum, moment)| *sum += by * moment);
             }
             *slips = sums;
         }
-        slips
     }
 }
 

@@ -10,6 +10,7 @@ use crate::axes::{Axis, PerAxis};
 use crate::contact::cone::{ByPolynomials, ConeProblem, FreeMotion, Polynomials, SlipRows, TangentialCoupling};
 use crate::contact::flexibility::{ByMoments, ByPowers};
 use crate::contact::kernel::Logarithm;
+use crate::linalg::POINTS;
 use std::f64::consts::PI;
 
 /// Unknowns at most.
@@ -73,17 +74,22 @@ impl SeriesContact<'_> {
     fn slips_between<const D: usize>(&self, by_bodies: &ByMoments, [at, by]: [usize; 2]) -> ByPolynomials<D> {
         let (along, line) = (self.slips_through(by_bodies, [at, by]), &self.lines[at]);
         let [rate, strain] = line.slip_of_field();
+        let mut slips = [[[ByPowers::default(); D]; POINTS]; D];
+        slips[0].iter_mut().zip(&along).for_each(|(slips, along)| slips[0] = *along);
         let patch = line.problem.line.patch.filter(|_| D > 1);
-        let [across, askew]: [ByMoments; 2] =
-            patch.and_then(|patch| patch.flexibility.across(patch.line, by)).map_or_else(Default::default, |tables| {
-                tables.map(|between| {
-                    std::array::from_fn(|n| {
-                        std::array::from_fn(|p| rate * between.displacement[n][p] + strain * between.strain[n][p])
-                    })
-                })
+        let Some(tables) = patch.and_then(|patch| patch.flexibility.across(patch.line, by)) else { return slips };
+        for n in 0..POINTS {
+            let [across, askew] = tables.each_ref().map(|between| {
+                let by_moment = between.displacement[n].iter().zip(&between.strain[n]);
+                let mut slip = ByPowers::default();
+                slip.iter_mut()
+                    .zip(by_moment)
+                    .for_each(|(slip, (moved, strained))| *slip = rate * moved + strain * strained);
+                slip
             });
-        let of = |by: usize, at: usize| if by != at { &askew } else { [&along, &across][by] };
-        std::array::from_fn(|by| std::array::from_fn(|n| std::array::from_fn(|at| of(by, at)[n])))
+            (slips[0][n][D - 1], slips[D - 1][n][0], slips[D - 1][n][D - 1]) = (askew, askew, across);
+        }
+        slips
     }
 
     /// Coupling of all lines and free motions under the present pressures.

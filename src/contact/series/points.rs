@@ -87,9 +87,9 @@ impl PointTables {
     /// Terms of the traction with values `q` at the points; the leading edge lies at `t = upstream`.
     pub fn terms_of(&self, q: &[f64; COUNT], upstream: f64) -> [f64; TERMS] {
         let mut sign = upstream;
-        self.terms.map(|terms| {
+        std::array::from_fn(|k| {
             sign *= upstream;
-            sign * terms.iter().zip(q).map(|(by, q)| by * q).sum::<f64>()
+            sign * self.terms[k].iter().zip(q).map(|(by, q)| by * q).sum::<f64>()
         })
     }
 }

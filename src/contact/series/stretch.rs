@@ -44,6 +44,7 @@ pub struct Stretch {
 impl Stretch {
     /// Tractions on a `stretch` of a line of a half-length `length` \[m], with the given terms and moments of the root with the
     /// powers \[m].
+    #[inline]
     fn of_terms(stretch: &Arch, length: f64, root: ByPowers, terms: [BySolution; ROOT + 1]) -> Self {
         let (half, of_terms) = (stretch.half_width, PlaceFactor::new(stretch, length).moments());
         let mut moments = [root; POINTS + 1];
