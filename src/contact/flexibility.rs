@@ -151,13 +151,6 @@ pub fn add<const D: usize>(by_moments: &[[f64; D]; D], moments: &[f64; D], sum: 
     }
 }
 
-/// Polynomial that belongs to moments.
-pub fn polynomial<const D: usize>(by_moments: &[[f64; D]; D], moments: &[f64; D]) -> [f64; D] {
-    let mut sum = [0.0; D];
-    add(by_moments, moments, &mut sum);
-    sum
-}
-
 /// Values of a polynomial at places x, whose unit is `length` \[m].
 pub fn values<const N: usize>(polynomial: &ByPowers, x: &[f64; N], length: f64) -> [f64; N] {
     let (mut sums, scale) = ([0.0; N], 1.0 / length);
@@ -187,9 +180,16 @@ pub fn at(polynomial: &ByPowers, powers: &ByPowers) -> f64 {
 }
 
 impl Between {
-    /// Field of forces with given moments.
-    pub fn field(&self, moments: &ByPowers) -> Field {
-        Field { displacement: polynomial(&self.displacement, moments), strain: polynomial(&self.strain, moments) }
+    /// Slips [m/s] by units of the moments as polynomials, given their changes with displacement and strain, see
+    /// [`slip_of_field`].
+    pub fn slips(&self, [by_displacement, by_strain]: [f64; 2]) -> ByMoments {
+        let (mut slips, by_field) = (ByMoments::default(), self.displacement.iter().zip(&self.strain));
+        for (slips, (displacements, strains)) in slips.iter_mut().zip(by_field) {
+            for (slip, (displacement, strain)) in slips.iter_mut().zip(displacements.iter().zip(strains)) {
+                *slip = by_displacement * displacement + by_strain * strain;
+            }
+        }
+        slips
     }
 }
 
@@ -292,6 +292,14 @@ mod tests {
 
     const STEEL: HalfSpace = HalfSpace { shear_modulus: 81e9, poissons_ratio: 0.3 };
 
+    /// Field of a line with given moments.
+    fn field(by: &Between, moments: &ByPowers) -> Field {
+        let mut field = Field::default();
+        add(&by.displacement, moments, &mut field.displacement);
+        add(&by.strain, moments, &mut field.strain);
+        field
+    }
+
     /// Strips beside each other, `scale` times as large as millimetres.
     fn strips(scale: f64) -> Vec<Tile> {
         let edges = [0.0, 1.0, 3.0, 4.5].map(|z| z * scale);
@@ -313,7 +321,8 @@ mod tests {
             let mut moved = 0.0;
             for (k, tile) in tiles.iter().enumerate() {
                 for j in 0..tiles.len() {
-                    let [there, back] = [patch.between(k, j).field(&forces[j]), patch.between(j, k).field(&forces[k])];
+                    let [there, back] =
+                        [field(patch.between(k, j), &forces[j]), field(patch.between(j, k), &forces[k])];
                     let works = [width(k) * work(k, &there.displacement), width(j) * work(j, &back.displacement)];
                     assert!((works[0] - works[1]).abs() < 1e-12 * works[0].abs() + 1e-26, "{works:?}");
                     moved += width(k) * work(k, &there.strain) / tile.half_length;
@@ -370,7 +379,7 @@ mod tests {
     fn a_wide_strip_is_displaced_as_the_plane() {
         let tile = Tile { edges: [-1.0, 1.0], half_length: 1e-3 };
         let (patch, reaches) = PatchFlexibility::new(&[tile], false, STEEL);
-        let rest = patch.between(0, 0).field(&[1.0, 0.0, 0.0, 0.0, 0.0]);
+        let rest = field(patch.between(0, 0), &[1.0, 0.0, 0.0, 0.0, 0.0]);
         let logarithm = 2.0 * (1.0 - STEEL.poissons_ratio) * STEEL.factor();
         // `asinh(w/|x|) − (1 − 2ν)/(1 − ν)` for a width w = 2.
         let reach = 4.0_f64.ln() - (1.0 - 2.0 * STEEL.poissons_ratio) / (1.0 - STEEL.poissons_ratio);

@@ -51,10 +51,7 @@ impl ContactLine<'_> {
         let patch = self.problem.patch?;
         let between = patch.flexibility.between(patch.line, by);
         let speeds = [self.problem.time.a0, self.traction.rigid.travel + self.rim_velocity()];
-        Some(std::array::from_fn(|n| {
-            let unit = std::array::from_fn(|k| if k == n { 1.0 } else { 0.0 });
-            between.field(&unit).slip(slip_of_field(speeds, patch.half_length))
-        }))
+        Some(between.slips(slip_of_field(speeds, patch.half_length)))
     }
 
     /// Adds the change of the slip at a candidate, of which the upwind `stencil` is given, with the forces on the layer to

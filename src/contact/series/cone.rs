@@ -73,21 +73,16 @@ impl SeriesContact<'_> {
     /// Slips of a line by unit moments of the shear of another one, given [`Self::slips_by_bodies`].
     fn slips_between<const D: usize>(&self, by_bodies: &ByMoments, [at, by]: [usize; 2]) -> ByPolynomials<D> {
         let (along, line) = (self.slips_through(by_bodies, [at, by]), &self.lines[at]);
-        let [rate, strain] = line.slip_of_field();
         let mut slips = [[[ByPowers::default(); D]; POINTS]; D];
         slips[0].iter_mut().zip(&along).for_each(|(slips, along)| slips[0] = *along);
         let patch = line.problem.line.patch.filter(|_| D > 1);
         let Some(tables) = patch.and_then(|patch| patch.flexibility.across(patch.line, by)) else { return slips };
-        for n in 0..POINTS {
-            let [across, askew] = tables.each_ref().map(|between| {
-                let by_moment = between.displacement[n].iter().zip(&between.strain[n]);
-                let mut slip = ByPowers::default();
-                slip.iter_mut()
-                    .zip(by_moment)
-                    .for_each(|(slip, (moved, strained))| *slip = rate * moved + strain * strained);
-                slip
-            });
-            (slips[0][n][D - 1], slips[D - 1][n][0], slips[D - 1][n][D - 1]) = (askew, askew, across);
+        let [across, askew] = tables.each_ref().map(|between| between.slips(line.slip_of_field()));
+        for (slips, askew) in slips[0].iter_mut().zip(&askew) {
+            slips[D - 1] = *askew;
+        }
+        for (slips, (askew, across)) in slips[D - 1].iter_mut().zip(askew.iter().zip(&across)) {
+            (slips[0], slips[D - 1]) = (*askew, *across);
         }
         slips
     }

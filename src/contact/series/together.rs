@@ -172,11 +172,9 @@ impl SeriesContact<'_> {
             slip.iter_mut().zip(&here).for_each(|(slip, here)| *slip *= there * here);
         }
         let Some(patch) = line.problem.line.patch else { return slips };
-        let (between, [rate, strain]) = (patch.flexibility.between(patch.line, by), line.slip_of_field());
-        for (n, slip) in slips.iter_mut().enumerate() {
-            for (p, slip) in slip.iter_mut().enumerate() {
-                *slip += rate * between.displacement[n][p] + strain * between.strain[n][p];
-            }
+        let by_field = patch.flexibility.between(patch.line, by).slips(line.slip_of_field());
+        for (slip, by_field) in slips.as_flattened_mut().iter_mut().zip(by_field.as_flattened()) {
+            *slip += by_field;
         }
         slips
     }

@@ -144,7 +144,7 @@ impl ActiveSet<'_> {
                 }
                 let Some(patch) = line.problem.patch else { return slips };
                 let rates = [line.problem.time.a0, line.traction.rigid.travel + line.rim_velocity()];
-                let slip = |between: &Between| slip_by_moments(between, rates, patch.half_length);
+                let slip = |between: &Between| between.slips(slip_of_field(rates, patch.half_length));
                 if at != by {
                     add(&slip(patch.flexibility.between(at, by)), [0, 0], &mut slips);
                 }
@@ -202,12 +202,6 @@ fn through_bodies(line: &ContactLine, at: &SmoothSlips, other: &ContactLine, by:
         }
         sum
     })
-}
-
-/// Slips by unit moments of a field, given the weight of its rate [1/s] and the sum of the speeds of both surfaces [m/s].
-fn slip_by_moments(between: &Between, rates: [f64; 2], half_length: f64) -> ByMoments {
-    let [rate, strain] = slip_of_field(rates, half_length);
-    std::array::from_fn(|n| std::array::from_fn(|p| rate * between.displacement[n][p] + strain * between.strain[n][p]))
 }
 
 /// Adds slips in a direction by moments of a direction, those along before those across.
