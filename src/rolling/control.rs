@@ -4,7 +4,7 @@
 use super::ramp::{RAMP_NUMBERS, RampRow, STEEPEST};
 use crate::config::row::{Level, Row};
 use crate::config::units::Measure;
-use crate::config::value::{RowValue, ValueLimits, choice};
+use crate::config::value::{RowValue, ValueLimits, choice, questions};
 use crate::config::{display_outside, display_range};
 use serde::{Deserialize, Serialize};
 
@@ -48,26 +48,15 @@ choice! {
     }
 }
 
-/// Says which item of a choice between partners prescribes the motion, whose reaction is the force or moment.
-macro_rules! partners {
-    ($($Name:ident: $Motion:ident, $Force:ident;)*) => { $(
-        impl $Name {
-            /// The motion is prescribed, the force or moment its reaction.
-            pub fn prescribes_motion(self) -> bool {
-                match self {
-                    Self::$Motion => true,
-                    Self::$Force => false,
-                }
-            }
-        }
-    )* };
-}
-
-partners! {
-    Rotation: Velocity, Moment;
-    Translation: Velocity, Force;
-    Vertical: Displacement, Force;
-    Lateral: Velocity, Force;
+questions! {
+    /// The angular velocity is prescribed, the moment its reaction.
+    Rotation: prescribes_motion { Velocity => true, Moment => false }
+    /// The travel velocity is prescribed, the horizontal force its reaction.
+    Translation: prescribes_motion { Velocity => true, Force => false }
+    /// The hub height is prescribed, the load its reaction.
+    Vertical: prescribes_motion { Displacement => true, Force => false }
+    /// The lateral velocity is prescribed, the lateral force its reaction.
+    Lateral: prescribes_motion { Velocity => true, Force => false }
 }
 
 /// The row of one real input.
