@@ -33,7 +33,11 @@ pub fn read_text(path: &Path) -> io::Result<String> {
 }
 
 /// A file that a user has named and that cannot be read.
-#[derive(Debug)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "file {path} cannot be read ({reason}); looked for {tried}; give a path that is absolute or relative to the working \
+     directory"
+)]
 pub struct Unread {
     /// File that is there, or the name of one that is not.
     pub path: String,

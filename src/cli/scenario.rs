@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::setting::{find, parse};
-use super::track::Heights;
+use super::track::{Heights, bend};
 use std::path::Path;
 use wheelrail::config::display_number;
 use wheelrail::files;
@@ -69,8 +69,7 @@ impl Scenario {
         let table = Table::read(text)?;
         let (names, header) = table.names();
         let at_header = |why: String| TableError::new(header, why);
-        let time = names.iter().position(|name| *name == "time");
-        let time = time.ok_or_else(|| at_header("no column time".to_owned()))?;
+        let time = table.column("time").ok_or_else(|| at_header("no column time".to_owned()))?;
         let mut columns = columns(names, time).map_err(at_header)?;
         let mut times: Vec<f64> = Vec::new();
         for row in table.rows() {
@@ -222,12 +221,6 @@ impl Scenario {
     pub fn choice(&self, values: &[i32], time: f64) -> i32 {
         values[self.times.partition_point(|&t| t <= time + ROUNDING).max(1) - 1]
     }
-}
-
-/// Distance of a cubic from the straight line through its ends, over its length, at a share `t` of it, by its mean rate and
-/// those at both ends.
-fn bend([mean, first, last]: [f64; 3], t: f64) -> f64 {
-    t * (1.0 - t) * ((1.0 - t) * (first - mean) - t * (last - mean))
 }
 
 /// Empty columns for the names besides `time`, with their positions.

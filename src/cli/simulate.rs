@@ -126,7 +126,7 @@ fn columns(names: &[String]) -> Result<Vec<&'static Variable>, Failure> {
 /// Summary of a run, printed at its end.
 struct Summary {
     /// Velocity, creepage, maximum temperatures of wheel and rail.
-    watched: [&'static Variable; 4],
+    watched: Vec<&'static Variable>,
     peak_creepage: f64,
     peak_temperature: f64,
     /// Spent in communication steps.
@@ -135,18 +135,9 @@ struct Summary {
 
 impl Summary {
     fn new() -> Result<Summary, Failure> {
-        let named = |name| find(name, |_| true);
-        Ok(Summary {
-            watched: [
-                named("wheel.velocity")?,
-                named("contact.creepage")?,
-                named("temperature.wheel_max")?,
-                named("temperature.rail_max")?,
-            ],
-            peak_creepage: 0.0,
-            peak_temperature: 0.0,
-            wall: Duration::ZERO,
-        })
+        let names = ["wheel.velocity", "contact.creepage", "temperature.wheel_max", "temperature.rail_max"];
+        let watched = names.into_iter().map(|name| find(name, |_| true)).collect::<Result<_, _>>()?;
+        Ok(Summary { watched, peak_creepage: 0.0, peak_temperature: 0.0, wall: Duration::ZERO })
     }
 
     fn see(&mut self, run: &mut Run) -> Result<(), Failure> {

@@ -1,7 +1,7 @@
 //! `steady`: stationary rolling at one or many creepages.
 
 use super::setting::{Setting, find};
-use super::setup::{Setup, failed, wrong};
+use super::setup::{Setup, wrong};
 use super::table::{self, Csv};
 use super::{Failure, model};
 use std::path::PathBuf;
@@ -11,7 +11,6 @@ use wheelrail::config::parameter_range;
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::variable::{Value, Variable};
 use wheelrail::simulation::{STANDSTILL, peripheral_velocity};
-use wheelrail_slave::Type;
 
 /// Columns of the table.
 const OUTPUTS: [&str; 12] = [
@@ -38,8 +37,9 @@ const COUNT: usize = 16;
 pub struct Steady {
     #[command(flatten)]
     setup: Setup,
-    #[command(flatten)]
-    velocity: Velocity,
+    /// Travel velocity [m/s]; initial.velocity if not given.
+    #[arg(long, value_name = "M/S", allow_hyphen_values = true)]
+    velocity: Option<f64>,
     /// Creepages 2 (V - r omega)/(V + r omega), braking positive: one, or FROM:TO:COUNT; up to 1.5 times Carter's full
     /// slip in 16 points if not given.
     #[arg(long, value_name = "X | FROM:TO:COUNT", allow_hyphen_values = true)]
@@ -50,14 +50,6 @@ pub struct Steady {
     /// A table in everyday units on standard output instead of CSV.
     #[arg(long, conflicts_with = "out")]
     table: bool,
-}
-
-/// Travel velocity of a stationary state.
-#[derive(clap::Args)]
-pub struct Velocity {
-    /// Travel velocity [m/s]; initial.velocity if not given.
-    #[arg(long, value_name = "M/S", allow_hyphen_values = true)]
-    velocity: Option<f64>,
 }
 
 /// Evenly spaced values, both ends included.
@@ -108,13 +100,6 @@ impl Range {
     }
 }
 
-impl Velocity {
-    /// True if a velocity was named.
-    pub fn is_given(&self) -> bool {
-        self.velocity.is_some()
-    }
-}
-
 /// A slave in Initialization Mode with prescribed speeds.
 pub struct OperatingPoint {
     /// The slave.
@@ -129,7 +114,7 @@ const GROWTH_TOLERANCE: f64 = 1e-12;
 
 impl OperatingPoint {
     /// The slave with preset and settings; `fixed` are what the command decides.
-    pub fn new(setup: &Setup, velocity: &Velocity, fixed: &[Setting]) -> Result<OperatingPoint, Failure> {
+    pub fn new(setup: &Setup, velocity: Option<f64>, fixed: &[Setting]) -> Result<OperatingPoint, Failure> {
         let prescribed = ["control.rotation", "control.translation"].map(|name| Setting::new(name, "velocity"));
         let temperatures = Setting::new("initial.temperature", "stationary");
         let fixed = prescribed
@@ -144,7 +129,7 @@ impl OperatingPoint {
             }
         }
         let instance = setup.initialize(&fixed, None)?;
-        let velocity = velocity.velocity.unwrap_or(instance.slave().config().initial.velocity);
+        let velocity = velocity.unwrap_or(instance.slave().config().initial.velocity);
         let [low, high] = parameter_range("initial.velocity");
         if !(velocity.abs() > STANDSTILL && (low..=high).contains(&velocity)) {
             let range = format!("{low} to {high} m/s without standstill");
@@ -170,7 +155,7 @@ impl OperatingPoint {
     }
 
     fn real(&mut self, name: &str) -> Result<f64, Failure> {
-        let values = self.instance.get(&[find(name, |_| true)?.reference], Type::Real).map_err(failed)?;
+        let values = table::read(&mut self.instance, &[find(name, |_| true)?])?;
         Ok(if let Some(Value::Real(v)) = values.first() { *v } else { 0.0 })
     }
 
@@ -190,7 +175,7 @@ impl Steady {
     /// Writes one row per creepage.
     pub fn run(self) -> Result<(), Failure> {
         let columns = OUTPUTS.iter().map(|name| find(name, |_| true)).collect::<Result<Vec<_>, _>>()?;
-        let mut point = OperatingPoint::new(&self.setup, &self.velocity, &[])?;
+        let mut point = OperatingPoint::new(&self.setup, self.velocity, &[])?;
         let range = match self.creepage {
             Some(range) => range,
             None => point.default_range()?,

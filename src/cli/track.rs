@@ -34,10 +34,16 @@ impl Heights {
         }
         let t = ((time - times[k]) / width).clamp(0.0, 1.0);
         let (mean, first, last) = ((heights[end] - heights[k]) / width, rates[k], rates[end]);
-        let bent = t * (1.0 - t) * ((1.0 - t) * (first - mean) - t * (last - mean));
+        let bent = bend([mean, first, last], t);
         let height = if t == 1.0 { heights[end] } else { heights[k] + width * (t * mean + bent) };
         [height, first + t * (2.0 * (3.0 * mean - 2.0 * first - last) + 3.0 * t * (first + last - 2.0 * mean))]
     }
+}
+
+/// Distance of a cubic from the straight line through its ends, over its length, at a share `t` of it, by its mean rate and
+/// those at both ends.
+pub fn bend([mean, first, last]: [f64; 3], t: f64) -> f64 {
+    t * (1.0 - t) * ((1.0 - t) * (first - mean) - t * (last - mean))
 }
 
 /// Derivatives at the samples: 0 at both ends, and such that the curvature is continuous between them.

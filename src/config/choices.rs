@@ -4,7 +4,7 @@
 //! item. A new item therefore does not compile until all of them are answered; `tests/architecture.rs` refuses
 //! comparisons.
 
-use super::value::choice;
+use super::value::{choice, questions};
 
 choice! {
     /// Rule by which a value that was written counts as given at the start.
@@ -14,31 +14,11 @@ choice! {
     }
 }
 
-impl Given {
-    /// Values count that only repeat a declared start value.
-    pub fn counts_start_values(self) -> bool {
-        match self {
-            Given::Changed => false,
-            Given::Written => true,
-        }
-    }
-}
-
 choice! {
     /// Temperatures at the start.
     pub enum StartTemperature named "StartTemperature", "Temperatures from which a run starts" {
         Uniform = "uniform", "wheel at thermal.reference + thermal.wheel_excess, rail at rail.temperature";
         Stationary = "stationary", "those that friction, brake and rail have brought about for ever, on top of these";
-    }
-}
-
-impl StartTemperature {
-    /// Temperatures at the start are those that friction and brake would reach for ever.
-    pub fn is_stationary(self) -> bool {
-        match self {
-            StartTemperature::Uniform => false,
-            StartTemperature::Stationary => true,
-        }
     }
 }
 
@@ -59,31 +39,11 @@ choice! {
     }
 }
 
-impl Wear {
-    /// Wear changes the profiles.
-    pub fn is_on(self) -> bool {
-        match self {
-            Wear::Off => false,
-            Wear::TGamma => true,
-        }
-    }
-}
-
 choice! {
     /// Body response behind the contact.
     pub enum Response named "Response", "How the bodies answer contact tractions" {
         Reduced = "reduced", "vibration modes plus residual flexibility";
         Full = "full", "all finite-element equations";
-    }
-}
-
-impl Response {
-    /// Bodies are reduced to vibration modes, which a stored basis holds.
-    pub fn is_reduced(self) -> bool {
-        match self {
-            Response::Reduced => true,
-            Response::Full => false,
-        }
     }
 }
 
@@ -97,48 +57,12 @@ choice! {
     }
 }
 
-impl ContactMethod {
-    /// Contact is looked for on a grid only.
-    pub fn is_grid(self) -> bool {
-        match self {
-            ContactMethod::Grid => true,
-            ContactMethod::Auto | ContactMethod::Patch => false,
-        }
-    }
-
-    /// Steps without a single smooth patch fail, instead of being solved on the grid.
-    pub fn requires_patch(self) -> bool {
-        match self {
-            ContactMethod::Auto | ContactMethod::Grid => false,
-            ContactMethod::Patch => true,
-        }
-    }
-}
-
 choice! {
     /// Shape of the patch in which wheel and rail touch.
     pub enum ContactShape named "ContactShape", "Shape of the contact patch" {
         Line = "line", "a line of constant width: model.contact_width";
         Ellipse = "ellipse", "an ellipse from the radii of curvature, on contact.lines lines side by side";
         Rows = "rows", "any patch: contact.rows, on at most contact.lines lines side by side";
-    }
-}
-
-impl ContactShape {
-    /// The patch is as wide as the bodies, and has one line.
-    pub fn is_line(self) -> bool {
-        match self {
-            ContactShape::Line => true,
-            ContactShape::Ellipse | ContactShape::Rows => false,
-        }
-    }
-
-    /// The patch is that of `contact.rows`.
-    pub fn has_rows(self) -> bool {
-        match self {
-            ContactShape::Line | ContactShape::Ellipse => false,
-            ContactShape::Rows => true,
-        }
     }
 }
 
@@ -164,4 +88,21 @@ choice! {
         Fixed = "fixed", "held at thermal.reference";
         Insulated = "insulated", "no heat passes";
     }
+}
+
+questions! {
+    /// Values count that only repeat a declared start value.
+    Given: counts_start_values { Written => true, Changed => false }
+    /// Temperatures at the start are those that friction and brake would reach for ever.
+    StartTemperature: is_stationary { Stationary => true, Uniform => false }
+    /// Wear changes the profiles.
+    Wear: is_on { TGamma => true, Off => false }
+    /// Bodies are reduced to vibration modes, which a stored basis holds.
+    Response: is_reduced { Reduced => true, Full => false }
+    /// Steps without a single smooth patch fail, instead of being solved on the grid.
+    ContactMethod: requires_patch { Patch => true, Auto => false, Grid => false }
+    /// The patch is as wide as the bodies, and has one line.
+    ContactShape: is_line { Line => true, Ellipse => false, Rows => false }
+    /// The patch is that of `contact.rows`.
+    ContactShape: has_rows { Rows => true, Line => false, Ellipse => false }
 }

@@ -2,7 +2,7 @@
 
 use super::choices::ContactShape;
 use super::patch_rows::{PatchRows, RowsError};
-use super::table::{Config, Initial, Material, Rail};
+use super::table::{Config, Material};
 use super::value::{display_number, display_range};
 use crate::analytic;
 use crate::patch::EquivalentEllipse;
@@ -58,22 +58,26 @@ impl ConfigError {
     }
 }
 
-/// A check of one parameter against others: its name, value and unit, the range, and the others with their values.
+/// A check of one parameter, or of what follows from parameters, against others.
 pub struct Dependent {
-    /// Name of the parameter, or what follows from parameters.
-    pub(super) name: &'static str,
-    pub(super) value: f64,
-    pub(super) unit: &'static str,
-    pub(super) low: f64,
-    pub(super) high: f64,
+    name: &'static str,
+    value: f64,
+    unit: &'static str,
+    range: [f64; 2],
     /// The others with their values, in words.
-    pub(super) others: String,
+    others: String,
 }
 
 impl Dependent {
+    /// The parameter `name` against others.
+    pub fn of(config: &Config, name: &'static str, range: [f64; 2], others: String) -> Self {
+        let (value, unit) = config.number(name);
+        Self { name, value, unit, range, others }
+    }
+
     /// Refuses a value outside the range.
     pub fn check(self) -> Result<(), ConfigError> {
-        let Self { name, value, unit, low, high, others } = self;
+        let Self { name, value, unit, range: [low, high], others } = self;
         if value >= low && value <= high {
             return Ok(());
         }
@@ -91,31 +95,19 @@ fn rayleigh_speed(config: &Config) -> f64 {
 
 /// Loads for which the contact zone can be meshed and fits wheel and rail.
 fn contact_zone(config: &Config) -> Dependent {
-    let (Material { youngs_modulus, poissons_ratio, .. }, radius) = (&config.material, config.wheel.radius);
-    let stiffness = analytic::contact_modulus(*youngs_modulus, *poissons_ratio);
+    let (material, radius) = (&config.material, config.wheel.radius);
+    let stiffness = analytic::contact_modulus(material.youngs_modulus, material.poissons_ratio);
     let half_widths = [SMALLEST_HALF_WIDTH, longest_half_width(config)];
-    let [low, high] = match config.contact.shape {
+    let range = match config.contact.shape {
         ContactShape::Line => {
             half_widths.map(|a| analytic::hertz_load(a, radius, stiffness) * config.model.contact_width)
         }
         ContactShape::Ellipse => half_widths.map(|a| (a / config.hertz().under(1.0).a).powi(3)),
         ContactShape::Rows => return longest_row(config),
     };
-    Dependent {
-        name: "model.nominal_load",
-        value: config.model.nominal_load,
-        unit: "N",
-        low,
-        high,
-        others: format!(
-            "model.contact_width = {} m, wheel.radius = {} m, rail.length = {} m and material.youngs_modulus = {} Pa \
-             (the contact zone fits wheel and rail)",
-            display_number(config.model.contact_width),
-            display_number(radius),
-            display_number(config.rail.length),
-            display_number(*youngs_modulus)
-        ),
-    }
+    let others = "{model.contact_width}, {wheel.radius}, {rail.length} and {material.youngs_modulus} (the contact zone fits \
+                  wheel and rail)";
+    Dependent::of(config, "model.nominal_load", range, config.told(others))
 }
 
 /// Largest half-width of a contact for which wheel and rail have room \[m].
@@ -125,23 +117,14 @@ fn longest_half_width(config: &Config) -> f64 {
 
 /// Rows of a patch for which wheel and rail have room; rows that have not been read are not judged.
 fn longest_row(config: &Config) -> Dependent {
-    let (radius, length) = (display_number(config.wheel.radius), display_number(config.rail.length));
     let rows = config.patch_rows().ok().flatten();
-    let [low, high] = match rows {
-        Some(_) => [SMALLEST_HALF_WIDTH, longest_half_width(config)],
-        None => [0.0, f64::INFINITY],
-    };
     Dependent {
         name: "largest half_length of contact.rows under model.nominal_load",
+        range: if rows.is_some() { [SMALLEST_HALF_WIDTH, longest_half_width(config)] } else { ANY },
         value: rows.map_or(0.0, |rows| rows.half_length()),
         unit: "m",
-        low,
-        high,
-        others: format!(
-            "model.nominal_load = {} N, contact.rows_load = {} N, wheel.radius = {radius} m and rail.length = {length} m (the \
-             contact zone fits wheel and rail)",
-            display_number(config.model.nominal_load),
-            display_number(config.contact.rows_load)
+        others: config.told(
+            "{model.nominal_load}, {contact.rows_load}, {wheel.radius} and {rail.length} (the contact zone fits wheel and rail)",
         ),
     }
 }
@@ -154,9 +137,8 @@ fn rows(config: &Config) -> Vec<Dependent> {
     let count = Dependent {
         name: "number of patches in contact.rows",
         value: shapes.len() as f64,
-        unit: "",
-        low: 1.0,
-        high: lines as f64,
+        unit: "1",
+        range: [1.0, lines as f64],
         others: format!(
             "contact.lines = {lines} (gaps between rows part patches, and each needs a line of its own: raise contact.lines, or \
              say with the column width that rows touch)"
@@ -171,8 +153,7 @@ fn aspect(shape: &EquivalentEllipse) -> Dependent {
         name: "half axes' ratio a/b of contact.rows",
         value: shape.a / shape.b,
         unit: "1",
-        low: ASPECTS[0],
-        high: ASPECTS[1],
+        range: ASPECTS,
         others: format!(
             "the ellipse a = {} m along and b = {} m across the direction of rolling that has the second moments of area \
              of a patch of rows",
@@ -185,205 +166,118 @@ fn aspect(shape: &EquivalentEllipse) -> Dependent {
 /// Initial motions slower than the surface waves: |V| < c and |V| (1 − ξ/2)/(1 + ξ/2) < c. Equality is left to the
 /// model.
 fn subsonic(config: &Config) -> [Dependent; 2] {
-    let Initial { velocity, creepage, .. } = config.initial;
     let wave = rayleigh_speed(config);
-    let share = wave / velocity.abs();
-    let material = format!(
-        "material.youngs_modulus = {} Pa and material.density = {} kg/m3, whose surface waves have {} m/s",
-        display_number(config.material.youngs_modulus),
-        display_number(config.material.density),
-        display_number(wave)
-    );
+    let share = wave / config.initial.velocity.abs();
+    let least = if share.is_finite() { 2.0 * (1.0 - share) / (1.0 + share) } else { -2.0 };
+    let material = config.told("{material.youngs_modulus} and {material.density}, whose surface waves have ");
+    let material = format!("{material}{} m/s", display_number(wave));
+    let with_velocity = config.told("{initial.velocity}, ") + &material;
     [
-        Dependent {
-            name: "initial.velocity",
-            value: velocity,
-            unit: "m/s",
-            low: -wave,
-            high: wave,
-            others: material.clone(),
-        },
-        Dependent {
-            name: "initial.creepage",
-            value: creepage.unwrap_or(0.0),
-            unit: "1",
-            low: if share.is_finite() { 2.0 * (1.0 - share) / (1.0 + share) } else { -2.0 },
-            high: f64::INFINITY,
-            others: format!("initial.velocity = {} m/s, {material}", display_number(velocity)),
-        },
+        Dependent::of(config, "initial.velocity", [-wave, wave], material),
+        Dependent::of(config, "initial.creepage", at_least(least), with_velocity),
     ]
+}
+
+/// Dampers and masses need a spring beside them, `springs`.
+pub fn beside(config: &Config, name: &'static str, springs: &[&str], most: f64) -> Dependent {
+    let high = if springs.iter().any(|spring| config.number(spring).0 > 0.0) { most } else { 0.0 };
+    let given: Vec<_> = springs.iter().map(|spring| config.given(spring)).collect();
+    Dependent::of(config, name, [0.0, high], format!("{} (0: rigid)", given.join(" and ")))
 }
 
 /// Dampers and mass of the track need a spring beside them; under the nominal load it gives by less than the radius of
 /// the wheel.
 fn track(config: &Config) -> Vec<Dependent> {
-    let Rail { support_stiffness, support_damping, support_mass, restraint_stiffness, restraint_damping, .. } =
-        config.rail;
-    let (radius, load) = (config.wheel.radius, config.model.nominal_load);
-    let vertical = ("rail.support_stiffness", support_stiffness);
-    let longitudinal = ("rail.restraint_stiffness", restraint_stiffness);
-    let springs = |springs: &[(&str, f64)]| {
-        let each: Vec<_> = springs.iter().map(|(name, k)| format!("{name} = {} N/m", display_number(*k))).collect();
-        each.join(" and ")
-    };
-    let beside = |name, value, unit, used: &[(&str, f64)]| {
-        let high = if used.iter().any(|(_, k)| *k > 0.0) { f64::INFINITY } else { 0.0 };
-        Dependent { name, value, unit, low: 0.0, high, others: format!("{} (0: rigid)", springs(used)) }
-    };
-    let given = |(name, value): (&'static str, f64)| {
-        let others = format!(
-            "model.nominal_load = {} N and wheel.radius = {} m (or 0: rigid)",
-            display_number(load),
-            display_number(radius)
-        );
-        let low = if value > 0.0 { load / radius } else { 0.0 };
-        Dependent { name, value, unit: "N/m", low, high: f64::INFINITY, others }
+    const SPRINGS: [&str; 2] = ["rail.support_stiffness", "rail.restraint_stiffness"];
+    let given = |name| {
+        let least = config.model.nominal_load / config.wheel.radius;
+        let others = config.told("{model.nominal_load} and {wheel.radius} (or 0: rigid)");
+        Dependent::of(config, name, at_least(if config.number(name).0 > 0.0 { least } else { 0.0 }), others)
     };
     vec![
-        given(vertical),
-        given(longitudinal),
-        beside("rail.support_damping", support_damping, "N.s/m", &[vertical]),
-        beside("rail.restraint_damping", restraint_damping, "N.s/m", &[longitudinal]),
-        beside("rail.support_mass", support_mass, "kg", &[vertical, longitudinal]),
+        given(SPRINGS[0]),
+        given(SPRINGS[1]),
+        beside(config, "rail.support_damping", &SPRINGS[..1], f64::INFINITY),
+        beside(config, "rail.restraint_damping", &SPRINGS[1..], f64::INFINITY),
+        beside(config, "rail.support_mass", &SPRINGS, f64::INFINITY),
     ]
-}
-
-/// Stiffness-proportional damping that the stream carries less than a centimetre during the retardation: its part in
-/// the stream is lagged, and a stationary state would not be found beyond.
-fn retardation(config: &Config) -> Dependent {
-    let velocity = config.initial.velocity;
-    Dependent {
-        name: "damping.rayleigh_stiffness",
-        value: config.damping.rayleigh_stiffness,
-        unit: "s",
-        low: 0.0,
-        high: LARGEST_RETARDATION / velocity.abs(),
-        others: format!("initial.velocity = {} m/s", display_number(velocity)),
-    }
 }
 
 /// The wheel starts above absolute zero, and where steel melts no hotter than the liquidus.
 fn start_temperature(config: &Config) -> Dependent {
     let (reference, material) = (config.thermal.reference, &config.material);
-    let melts = material.latent_heat > 0.0 && reference < material.solidus;
-    let liquidus = display_number(material.liquidus);
-    let hottest = if melts { format!(" and of at most material.liquidus = {liquidus} K") } else { String::new() };
-    Dependent {
-        name: "thermal.wheel_excess",
-        value: config.thermal.wheel_excess,
-        unit: "K",
-        low: 1.0 - reference,
-        high: if melts { material.liquidus - reference } else { f64::INFINITY },
-        others: format!(
-            "thermal.reference = {} K (the wheel starts above absolute zero{hottest})",
-            display_number(reference)
-        ),
-    }
+    let (highest, hottest) = match material.latent_heat > 0.0 && reference < material.solidus {
+        true => (material.liquidus - reference, " and of at most {material.liquidus}"),
+        false => (f64::INFINITY, ""),
+    };
+    let others = ["{thermal.reference} (the wheel starts above absolute zero", hottest, ")"].concat();
+    Dependent::of(config, "thermal.wheel_excess", [1.0 - reference, highest], config.told(&others))
 }
 
 /// Internal steps are not too short to be computed, or chosen by the profiles.
 fn internal_step(config: &Config) -> Dependent {
-    let value = config.tuning.max_step;
-    let (low, high) = if value > 0.0 { (SHORTEST_LIMIT, f64::INFINITY) } else { (0.0, 0.0) };
-    let others = "0 as the choice by wheel.profile and rail.profile".to_owned();
-    Dependent { name: "solver.max_step", value, unit: "s", low, high, others }
-}
-
-/// Melting takes place within a range of temperatures.
-fn melting_range(config: &Config) -> Dependent {
-    let solidus = config.material.solidus;
-    Dependent {
-        name: "material.liquidus",
-        value: config.material.liquidus,
-        unit: "K",
-        low: solidus + 10.0,
-        high: f64::INFINITY,
-        others: format!("material.solidus = {} K", display_number(solidus)),
-    }
-}
-
-/// Catastrophic wear begins beyond severe wear.
-fn wear_regimes(config: &Config) -> Dependent {
-    let from = config.damage.wear_severe_from;
-    Dependent {
-        name: "damage.wear_catastrophic_from",
-        value: config.damage.wear_catastrophic_from,
-        unit: "Pa",
-        low: from,
-        high: f64::INFINITY,
-        others: format!("damage.wear_severe_from = {} Pa", display_number(from)),
-    }
+    let range = if config.tuning.max_step > 0.0 { at_least(SHORTEST_LIMIT) } else { [0.0; 2] };
+    Dependent::of(config, "solver.max_step", range, "0 as the choice by wheel.profile and rail.profile".to_owned())
 }
 
 /// Worn surfaces are no smooth patch.
 fn wear_contact(config: &Config) -> Dependent {
-    let number = |on: bool| if on { 2.0 } else { 1.0 };
-    let (value, high) = (number(config.damage.wear.is_on()), number(!config.solver.contact.requires_patch()));
+    let high = if config.solver.contact.requires_patch() { 1.0 } else { 2.0 };
     let others = "solver.contact = patch, on smooth surfaces only (1: off, 2: t_gamma)".to_owned();
-    Dependent { name: "damage.wear", value, unit: "", low: 1.0, high, others }
+    Dependent::of(config, "damage.wear", [1.0, high], others)
 }
 
 /// Curvatures across the direction of rolling with which wheel and rail touch in an ellipse that is no line.
 fn ellipse(config: &Config) -> Dependent {
-    let radius = config.wheel.radius;
-    let [low, high] = match config.contact.shape {
-        ContactShape::Line | ContactShape::Rows => [f64::NEG_INFINITY, f64::INFINITY],
-        ContactShape::Ellipse => CURVATURES.map(|c| c / radius),
-    };
     Dependent {
         name: "1/contact.wheel_lateral_radius + 1/contact.rail_lateral_radius",
         value: config.lateral_curvature(),
         unit: "1/m",
-        low,
-        high,
-        others: format!(
-            "contact.shape = ellipse and wheel.radius = {} m (wheel and rail touch in a patch between a line across and a line along \
+        range: match config.contact.shape {
+            ContactShape::Line | ContactShape::Rows => ANY,
+            ContactShape::Ellipse => CURVATURES.map(|c| c / config.wheel.radius),
+        },
+        others: config.told(
+            "contact.shape = ellipse and {wheel.radius} (wheel and rail touch in a patch between a line across and a line along \
              the direction of rolling; raise or lower contact.rail_lateral_radius)",
-            display_number(radius)
         ),
     }
 }
 
+/// No limits.
+const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+fn at_least(low: f64) -> [f64; 2] {
+    [low, f64::INFINITY]
+}
+
 /// Every range that depends on other parameters, with the present value in it.
 pub fn ranges(config: &Config) -> Vec<Dependent> {
-    let (radius, infinity) = (config.wheel.radius, f64::INFINITY);
-    let with_radius = || format!("wheel.radius = {} m", display_number(radius));
+    let radius = config.wheel.radius;
+    let simple = |name, range, other| Dependent::of(config, name, range, config.given(other));
     let [velocity, creepage] = subsonic(config);
     let mut all = vec![
-        Dependent {
-            name: "wheel.hub_radius",
-            value: config.wheel.hub_radius,
-            unit: "m",
-            low: 0.02 * radius,
-            high: 0.9 * radius,
-            others: with_radius(),
-        },
-        Dependent {
-            name: "rail.length",
-            value: config.rail.length,
-            unit: "m",
-            low: 0.2 * radius,
-            high: infinity,
-            others: with_radius(),
-        },
-        Dependent {
-            name: "rail.height",
-            value: config.rail.height,
-            unit: "m",
-            low: 0.02 * radius,
-            high: infinity,
-            others: with_radius(),
-        },
+        simple("wheel.hub_radius", [0.02 * radius, 0.9 * radius], "wheel.radius"),
+        simple("rail.length", at_least(0.2 * radius), "wheel.radius"),
+        simple("rail.height", at_least(0.02 * radius), "wheel.radius"),
         ellipse(config),
         start_temperature(config),
-        melting_range(config),
-        wear_regimes(config),
+        // Melting takes place within a range of temperatures.
+        simple("material.liquidus", at_least(config.material.solidus + 10.0), "material.solidus"),
+        // Catastrophic wear begins beyond severe wear.
+        simple("damage.wear_catastrophic_from", at_least(config.damage.wear_severe_from), "damage.wear_severe_from"),
         wear_contact(config),
         internal_step(config),
         velocity,
         creepage,
         contact_zone(config),
-        retardation(config),
+        // The part of this damping in the stream is lagged, and a stationary state would not be found beyond a way of
+        // a centimetre during the retardation.
+        simple(
+            "damping.rayleigh_stiffness",
+            [0.0, LARGEST_RETARDATION / config.initial.velocity.abs()],
+            "initial.velocity",
+        ),
     ];
     all.extend(track(config));
     all.extend(rows(config));

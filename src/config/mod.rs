@@ -64,6 +64,33 @@ impl Config {
         if self.contact.shape.is_line() { self.model.contact_width } else { self.model.structural_width }
     }
 
+    /// Value and unit of a numeric parameter.
+    fn number(&self, name: &str) -> (f64, &'static str) {
+        match Self::rows().iter().find(|row| row.name == name).map(|row| ((row.read)(self), row.kind)) {
+            Some((Value::Real(value), Kind::Real { measure, .. })) => (value, measure.unit),
+            Some((Value::Integer(value), _)) => (f64::from(value), "1"),
+            _ => (f64::NAN, "1"),
+        }
+    }
+
+    /// A numeric parameter with its value, in words: `rail.length = 1 m`.
+    pub fn given(&self, name: &str) -> String {
+        let (value, unit) = self.number(name);
+        let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+        format!("{name} = {}{unit}", display_number(value))
+    }
+
+    /// A text with values of numeric parameters: `{rail.length}` becomes `rail.length = 1 m`, and `{rail.length now}`
+    /// becomes `rail.length (now 1 m)`.
+    pub fn told(&self, text: &str) -> String {
+        let name = |name: &str| match name.strip_suffix(" now") {
+            Some(name) => self.given(name).replacen(" = ", " (now ", 1) + ")",
+            None => self.given(name),
+        };
+        let parts = text.split(['{', '}']).enumerate();
+        parts.map(|(k, part)| if k % 2 == 0 { part.to_owned() } else { name(part) }).collect()
+    }
+
     /// This configuration with all that may change during a run from another one.
     pub fn tuned_like(&self, other: &Config) -> Config {
         Config { tuning: other.tuning.clone(), files: other.files.clone(), ..self.clone() }

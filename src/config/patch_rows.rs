@@ -1,5 +1,7 @@
 //! Rows of a patch that is no ellipse, as the text of `contact.rows`.
 
+use crate::files::Unread;
+use crate::files::table::{Table, TableError, TableRow};
 use crate::patch::rows::{self, EquivalentEllipse, PatchRow};
 
 /// End of a text that names a file.
@@ -29,29 +31,14 @@ pub enum RowsError {
     )]
     Count(usize),
     /// A text that is no table.
-    #[error("contact.rows, line {line}: {problem}")]
-    Text {
-        /// Line of the text, from 1.
-        line: u64,
-        /// Problem and remedy.
-        problem: String,
-    },
+    #[error("contact.rows, {0}")]
+    Text(#[from] TableError),
     /// A file that nobody has read yet.
     #[error("contact.rows: file {0} has not been read; give its content")]
     Unread(String),
     /// A file that cannot be read.
-    #[error(
-        "contact.rows: file {path} cannot be read ({reason}); looked for {tried}; give a path that is absolute or relative \
-         to the working directory"
-    )]
-    Unreadable {
-        /// File that is there, or the name of one that is not.
-        path: String,
-        /// Reason.
-        reason: String,
-        /// Places where it was looked for.
-        tried: String,
-    },
+    #[error("contact.rows: {0}")]
+    Unreadable(#[from] Unread),
 }
 
 /// Patches that are described by rows side by side.
@@ -66,7 +53,7 @@ pub struct PatchRows {
 /// A row as a table has it.
 struct GivenRow {
     /// Line of the text, from 1.
-    line: u64,
+    line: usize,
     position: f64,
     half_length: f64,
     load_share: f64,
@@ -87,20 +74,18 @@ impl PatchRows {
     /// # Errors
     /// Tables without meaning: the error names line, column, value, allowed range and what to do.
     pub fn parse(text: &str, load: f64) -> Result<Self, RowsError> {
-        let table = text.replace(';', "\n");
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(table.as_bytes());
-        let header = reader.headers().map_err(|error| wrong(1, error.to_string()))?.clone();
-        if header.is_empty() {
+        if text.trim().is_empty() {
             return Err(RowsError::Count(0));
         }
-        let columns = Columns::find(&header).map_err(|problem| wrong(1, problem))?;
+        let text = text.replace(';', "\n");
+        let table = Table::read(&text)?;
+        let columns = table.columns(COLUMNS, &[WIDTH])?;
+        let width = table.column(WIDTH);
         let mut given: Vec<GivenRow> = Vec::new();
-        for record in reader.records() {
-            let record =
-                record.map_err(|error| wrong(error.position().map_or(0, csv::Position::line), error.to_string()))?;
-            let line = record.position().map_or(0, csv::Position::line);
-            let before = given.last().map(|row| row.position);
-            given.push(columns.row(&record, line, before).map_err(|problem| wrong(line, problem))?);
+        for row in table.rows() {
+            let row = GivenRow::read(&row?, columns, width)?;
+            row.check(given.last().map(|row| row.position)).map_err(|problem| wrong(row.line, problem))?;
+            given.push(row);
         }
         if !(2..=MOST_ROWS).contains(&given.len()) {
             return Err(RowsError::Count(given.len()));
@@ -151,8 +136,8 @@ impl PatchRows {
     }
 }
 
-fn wrong(line: u64, problem: String) -> RowsError {
-    RowsError::Text { line, problem }
+fn wrong(line: usize, problem: String) -> RowsError {
+    TableError::new(line, problem).into()
 }
 
 /// Width of every row and the free one before it \[m] where the table has widths.
@@ -206,63 +191,21 @@ fn sides_by_distance(given: &[GivenRow]) -> Result<Vec<[f64; 2]>, RowsError> {
     Ok(sides)
 }
 
-/// Places of the columns in a table.
-struct Columns {
-    needed: [usize; 3],
-    width: Option<usize>,
-    count: usize,
-}
-
-impl Columns {
-    /// Finds the columns by the header; the error is problem and remedy.
-    fn find(header: &csv::StringRecord) -> Result<Self, String> {
-        let of = |name: &str| {
-            let mut found = header.iter().enumerate().filter(|(_, given)| given.trim_start_matches('\u{feff}') == name);
-            let first = found.next().map(|(place, _)| place);
-            match found.next() {
-                Some(_) => Err(format!("column {name} is there twice; leave one of both out")),
-                None => Ok(first),
-            }
-        };
-        let mut needed = [0; 3];
-        for (place, name) in needed.iter_mut().zip(COLUMNS) {
-            let given = header.iter().collect::<Vec<_>>().join(",");
-            let missing = || {
-                let columns = COLUMNS.join(",");
-                format!("column {name} is missing; the header must be {columns}, and may have {WIDTH}, not {given}")
-            };
-            *place = of(name)?.ok_or_else(missing)?;
-        }
-        Ok(Self { needed, width: of(WIDTH)?, count: header.len() })
-    }
-
-    /// The row of a record behind the position `before`; the error is problem and remedy.
-    fn row(&self, record: &csv::StringRecord, line: u64, before: Option<f64>) -> Result<GivenRow, String> {
-        if record.len() > self.count {
-            return Err(format!(
-                "{} cells stand under {} columns; numbers have a decimal point, and commas between them",
-                record.len(),
-                self.count
-            ));
-        }
-        let number = |name: &str, column: usize| {
-            let given = record.get(column).unwrap_or_default();
-            let finite = given.parse().ok().filter(|value: &f64| value.is_finite());
-            finite.ok_or_else(|| format!("{name} = {given:?} is no finite number; correct or leave out the line"))
-        };
-        let [position, half_length, load_share] = self.needed;
-        let row = GivenRow {
-            line,
-            position: number(COLUMNS[0], position)?,
-            half_length: number(COLUMNS[1], half_length)?,
-            load_share: number(COLUMNS[2], load_share)?,
-            width: self.width.map(|column| number(WIDTH, column)).transpose()?,
-        };
-        row.check(before).map(|()| row)
-    }
-}
-
 impl GivenRow {
+    fn read(
+        row: &TableRow,
+        [position, half_length, load_share]: [usize; 3],
+        width: Option<usize>,
+    ) -> Result<Self, TableError> {
+        Ok(Self {
+            line: row.line,
+            position: row.number(position, COLUMNS[0], "m")?,
+            half_length: row.number(half_length, COLUMNS[1], "m")?,
+            load_share: row.number(load_share, COLUMNS[2], "1")?,
+            width: width.map(|column| row.number(column, WIDTH, "m")).transpose()?,
+        })
+    }
+
     /// Refuses a row outside the ranges, or not behind the position `before`; the error is problem and remedy.
     fn check(&self, before: Option<f64>) -> Result<(), String> {
         let Self { position, half_length, load_share, .. } = *self;
@@ -320,7 +263,7 @@ mod tests {
             (format!("{head}0,5e-3,1"), &["1 rows", "needs 2"]),
             ("position,length,load_share\n0,1,1".to_owned(), &["line 1", "half_length is missing"]),
             (format!("{head}0,5e-3,1\n1e-3,long,1"), &["line 3", "half_length = \"long\"", "finite"]),
-            (format!("{head}0,5e-3,1\n1e-3,5e-3"), &["line 3", "load_share = \"\""]),
+            (format!("{head}0,5e-3,1\n1e-3,5e-3"), &["line 3", "2 cells", "3 columns"]),
             (format!("{head}0,5e-3,1\n0,5e-3,1"), &["line 3", "position = 0 m", "sort"]),
             (format!("{head}0,5,1"), &["line 2", "half_length = 5 m", "in metres"]),
             (format!("{head}-10,5e-3,1"), &["line 2", "position = -10 m", "in metres"]),
@@ -335,10 +278,10 @@ mod tests {
             (format!("{head}0,5e-3,1\n1e-3,5e-3,1\n3e-3,5e-3,1"), &["line 4", "unclear", "column width"][..]),
             (format!("{head}0,5e-3,1\n1e-3,5e-3,1\n2e-3,5e-3,1\n3.7e-3,5e-3,1"), &["line 5", "unclear", "width"]),
             (format!("{with_widths}0,5e-3,1,1e-3\n0.9e-3,5e-3,1,1e-3"), &["line 3", "overlap by 1.0e-4 m"]),
-            (format!("{with_widths}0,5e-3,1,1e-3\n1e-3,5e-3,1"), &["line 3", "width = \"\""]),
+            (format!("{with_widths}0,5e-3,1,1e-3\n1e-3,5e-3,1"), &["line 3", "3 cells", "4 columns"]),
             (format!("{with_widths}0,5e-3,1,1\n1e-3,5e-3,1,1"), &["line 2", "width = 1 m", "in metres"]),
             (format!("{head}0,0,5e-3,1\n1,5,5e-3,1"), &["line 2", "4 cells", "3 columns", "decimal point"]),
-            (format!("position,{head}0,0,5e-3,1\n1,1,5e-3,1"), &["line 1", "position", "twice"]),
+            (format!("position,{head}0,0,5e-3,1\n1,1,5e-3,1"), &["line 1", "two columns position"]),
         ] {
             let message = PatchRows::parse(&text, 1e5).unwrap_err().to_string();
             assert!(words.iter().all(|word| message.contains(word)), "{message}");

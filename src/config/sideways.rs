@@ -1,8 +1,7 @@
 //! Parameters with which contact in two directions, `contact.lateral`, is refused.
 
-use super::dependent::{ConfigError, Dependent};
+use super::dependent::{ConfigError, Dependent, beside};
 use super::table::Config;
-use super::value::display_number;
 use std::f64::consts::PI;
 
 /// Refuses parameters with which a contact of two directions is not computed.
@@ -22,24 +21,15 @@ pub fn check(config: &Config) -> Result<(), ConfigError> {
 
 /// Dampers and masses beside lateral springs, which need them, and a tread that is no heavier than all that moves sideways.
 pub fn ranges(config: &Config) -> Vec<Dependent> {
-    let (wheel, rail) = (&config.wheel, &config.rail);
+    let wheel = &config.wheel;
     let annulus = PI * (wheel.radius.powi(2) - wheel.hub_radius.powi(2)) * config.width() * config.material.density;
-    let beside = |name, value, unit, (spring, stiffness): (&str, f64), most: f64| Dependent {
-        name,
-        value,
-        unit,
-        low: 0.0,
-        high: if stiffness > 0.0 { most } else { 0.0 },
-        others: format!("{spring} = {} N/m (0: rigid)", display_number(stiffness)),
-    };
-    let of_wheel = ("wheel.lateral_stiffness", wheel.lateral_stiffness);
-    let of_rail = ("rail.lateral_stiffness", rail.lateral_stiffness);
     let moving = annulus + wheel.hub_mass + wheel.lateral_mass;
+    let (of_wheel, of_rail) = (["wheel.lateral_stiffness"], ["rail.lateral_stiffness"]);
     vec![
-        beside("wheel.lateral_damping", wheel.lateral_damping, "N.s/m", of_wheel, f64::INFINITY),
-        beside("wheel.lateral_tread_mass", wheel.lateral_tread_mass, "kg", of_wheel, moving),
-        beside("rail.lateral_damping", rail.lateral_damping, "N.s/m", of_rail, f64::INFINITY),
-        beside("rail.lateral_mass", rail.lateral_mass, "kg", of_rail, f64::INFINITY),
+        beside(config, "wheel.lateral_damping", &of_wheel, f64::INFINITY),
+        beside(config, "wheel.lateral_tread_mass", &of_wheel, moving),
+        beside(config, "rail.lateral_damping", &of_rail, f64::INFINITY),
+        beside(config, "rail.lateral_mass", &of_rail, f64::INFINITY),
     ]
 }
 

@@ -327,6 +327,21 @@ macro_rules! choice {
 }
 pub(crate) use choice;
 
+/// Defines questions to choices, each with the answer for every item: a new item does not compile until it has one.
+macro_rules! questions {
+    ($( $(#[$about:meta])* $Name:ident: $question:ident { $( $Item:ident => $answer:literal ),* } )*) => { $(
+        impl $Name {
+            $(#[$about])*
+            pub fn $question(self) -> bool {
+                match self {
+                    $( Self::$Item => $answer, )*
+                }
+            }
+        }
+    )* };
+}
+pub(crate) use questions;
+
 #[cfg(test)]
 mod tests {
     use super::*;

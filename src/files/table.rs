@@ -20,7 +20,7 @@ pub struct TableRow<'a> {
 }
 
 /// A text that is no table.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {problem}")]
 pub struct TableError {
     /// Line of the text, from 1.
@@ -66,6 +66,25 @@ impl<'a> Table<'a> {
     /// Names of the columns, and the line in which they stand.
     pub fn names(&self) -> (&[&'a str], usize) {
         (&self.names, self.line)
+    }
+
+    /// Place of a column, from 0.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|found| *found == name)
+    }
+
+    /// Places of columns that must be there; `also` are those that may be.
+    pub fn columns<const N: usize>(&self, needed: [&str; N], also: &[&str]) -> Result<[usize; N], TableError> {
+        let mut places = [0; N];
+        for (place, name) in places.iter_mut().zip(needed) {
+            let problem = || {
+                let may = if also.is_empty() { String::new() } else { format!(", and may have {}", also.join(",")) };
+                let (needed, given) = (needed.join(","), self.names.join(","));
+                format!("column {name} is missing; the line of names must be {needed}{may}, not {given}")
+            };
+            *place = self.column(name).ok_or_else(|| TableError::new(self.line, problem()))?;
+        }
+        Ok(places)
     }
 
     /// Rows one after the other; one with other cells than names is refused.

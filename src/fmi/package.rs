@@ -9,7 +9,7 @@ use super::platform::{Binary, read};
 use super::references;
 use crate::files::NewFile;
 use std::fs;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
@@ -57,7 +57,7 @@ fn figure(interface: Interface) -> &'static str {
 
 /// Files of a directory whose names satisfy the condition, sorted by name.
 fn files(directory: &Path, wanted: impl Fn(&str) -> bool) -> Result<Vec<(String, PathBuf)>, PackageError> {
-    let failed = |source| PackageError::File { path: directory.to_owned(), source };
+    let failed = |error: io::Error| PackageError::of_file(directory, error);
     let mut found = Vec::new();
     for entry in fs::read_dir(directory).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
@@ -80,7 +80,7 @@ pub fn write(out: &Path, contents: &Contents) -> Result<(), PackageError> {
     for binary in &contents.binaries {
         let entry = binary.entry(interface)?;
         if entries.iter().any(|(other, _)| *other == entry) {
-            return Err(PackageError::Twice(entry));
+            return Err(PackageError::Refused(format!("two binaries are to become {entry}")));
         }
         entries.push((entry, binary.read()?));
     }

@@ -22,7 +22,10 @@ impl Platform {
     /// Name in an interface; refuses a platform that has none there.
     pub fn name(&self, interface: Interface) -> Result<&'static str, PackageError> {
         match interface {
-            Interface::Two(_) => self.two.ok_or(PackageError::OnlyThree(self.three)),
+            Interface::Two(_) => self.two.ok_or_else(|| {
+                let remedy = "pack the FMU with --fmi 3, which has one";
+                PackageError::Refused(format!("FMI 2.0 has no name for {}: {remedy}", self.three))
+            }),
             Interface::Three => Ok(self.three),
         }
     }
@@ -62,12 +65,16 @@ pub fn own_platform() -> Result<&'static Platform, PackageError> {
 fn platform_of(os: &'static str, architecture: &'static str) -> Result<&'static Platform, PackageError> {
     let system = if os == "macos" { "darwin" } else { os };
     let name = format!("{architecture}-{system}");
-    PLATFORMS.iter().find(|known| known.three == name).ok_or(PackageError::Unnamed { os, architecture })
+    PLATFORMS.iter().find(|known| known.three == name).ok_or_else(|| {
+        PackageError::Refused(format!(
+            "FMI names no platform for {os} on {architecture}: say with --binary PLATFORM=FILE where your master looks"
+        ))
+    })
 }
 
 /// The content of a file.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, PackageError> {
-    files::read(path).map_err(|source| PackageError::File { path: path.to_owned(), source })
+    files::read(path).map_err(|error| PackageError::of_file(path, error))
 }
 
 /// A shared library and the platform it was compiled for; as text `PLATFORM=FILE`.
@@ -81,7 +88,7 @@ impl Binary {
     /// A library for a platform, by its name in either version.
     pub fn new(platform: &str, file: impl Into<PathBuf>) -> Result<Self, PackageError> {
         let known = PLATFORMS.iter().find(|known| known.three == platform || known.two == Some(platform));
-        let unknown = || PackageError::Platform { name: platform.to_owned(), known: platform_names() };
+        let unknown = || PackageError::Refused(format!("platform {platform:?} is unknown: {}", platform_names()));
         Ok(Self { platform: known.ok_or_else(unknown)?, file: file.into() })
     }
 
@@ -101,7 +108,7 @@ impl Binary {
         if heads.iter().any(|head| bytes.starts_with(head)) {
             return Ok(bytes);
         }
-        Err(PackageError::NoLibrary { path: self.file.clone(), platform: self.platform.three })
+        Err(PackageError::Refused(format!("{} is no shared library for {}", self.file.display(), self.platform.three)))
     }
 
     /// Path inside the FMU.
@@ -116,7 +123,7 @@ impl FromStr for Binary {
     fn from_str(text: &str) -> Result<Self, PackageError> {
         match text.split_once('=') {
             Some((platform, file)) if !file.is_empty() => Self::new(platform, file),
-            _ => Err(PackageError::Pair(text.to_owned())),
+            _ => Err(PackageError::Refused(format!("{text:?} is not of the form PLATFORM=FILE"))),
         }
     }
 }

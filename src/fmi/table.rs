@@ -14,7 +14,9 @@ use crate::config::Config;
 use crate::config::retired::{self, Retired};
 use crate::simulation::{Drive, Inputs, Outputs, Read, STEEPEST};
 use std::array::from_fn;
+use std::fmt::Debug;
 use std::sync::OnceLock;
+use wheelrail_slave::{CallError, Outcome};
 
 /// Number of rows: the preset, parameters, inputs and outputs.
 const COUNT: usize = 1 + Config::COUNT + Inputs::CONTROLS + Drive::ROWS.len() + Drive::RAMPS + Outputs::ROWS.len();
@@ -32,18 +34,48 @@ pub fn table() -> &'static [Variable] {
 
 /// Row with the given value reference.
 pub fn find(reference: Reference) -> Option<&'static Variable> {
-    static ORDER: OnceLock<[(Reference, usize); COUNT]> = OnceLock::new();
-    let order = ORDER.get_or_init(|| {
-        let mut order = from_fn(|k| (table()[k].reference, k));
+    static ORDER: Order<COUNT> = OnceLock::new();
+    find_in(table(), &ORDER, reference)
+}
+
+/// Value references in ascending order, with the places of their variables.
+pub type Order<const N: usize> = OnceLock<[(Reference, usize); N]>;
+
+/// The one of all variables that has the value reference, by their order.
+pub fn find_in<const N: usize>(
+    all: &'static [Variable],
+    order: &Order<N>,
+    reference: Reference,
+) -> Option<&'static Variable> {
+    let order = order.get_or_init(|| {
+        let mut order = from_fn(|k| (all[k].reference, k));
         order.sort_unstable();
         order
     });
     let position = order.binary_search_by_key(&reference, |entry| entry.0).ok()?;
-    Some(&table()[order[position].1])
+    Some(&all[order[position].1])
+}
+
+/// Variables that `find` knows by their references, refusing unknown ones and types other than `wanted`.
+pub fn of_type<T: PartialEq + Debug>(
+    references: &[Reference],
+    wanted: T,
+    find: fn(Reference) -> Option<&'static Variable>,
+    type_of: fn(Kind) -> T,
+) -> Outcome<Vec<&'static Variable>> {
+    let variable = |reference: &Reference| {
+        let variable = find(*reference).ok_or_else(|| CallError::error(no_such_variable(*reference)))?;
+        let (name, theirs) = (variable.name, type_of(variable.kind));
+        if theirs == wanted {
+            return Ok(variable);
+        }
+        Err(CallError::error(format!("{name} (value reference {reference}) is {theirs:?}, not {wanted:?}")))
+    };
+    references.iter().map(variable).collect()
 }
 
 /// The refusal of a value reference that no variable has: that of a retired parameter is refused by its name.
-pub fn no_such_variable(reference: Reference) -> String {
+fn no_such_variable(reference: Reference) -> String {
     let unknown = || format!("value reference {reference} is unknown");
     let named = |retired: &Retired| format!("value reference {reference}: {retired}");
     retired::numbered(reference).map_or_else(unknown, named)

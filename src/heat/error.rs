@@ -1,7 +1,6 @@
 //! Errors of heat computations.
 
 use crate::config::ConfigError;
-use crate::piecewise::PiecewiseError;
 
 /// Reason why a heat computation has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -17,32 +16,9 @@ pub enum HeatError {
         /// Its value, in the unit of the input.
         value: f64,
     },
-    /// A profile that is no function of x.
-    #[error("{name}: {why}")]
-    Profile {
-        /// Quantity that it gives over x.
-        name: &'static str,
-        /// Its fault.
-        why: PiecewiseError,
-    },
-    /// An interval of the surface without meaning.
-    #[error("contact patch from {low} m to {high} m: its ends must be numbers and ascend")]
-    Patch {
-        /// First end \[m].
-        low: f64,
-        /// Second end \[m].
-        high: f64,
-    },
-    /// Load that acts beyond the finely meshed surface.
-    #[error("{name} reaches x = {x} m, outside the contact zone of ±{zone} m")]
-    OutsideZone {
-        /// Its name.
-        name: &'static str,
-        /// Position where it ends \[m].
-        x: f64,
-        /// Half-length of the zone \[m].
-        zone: f64,
-    },
+    /// Profiles and intervals of the surface that cannot be computed with, in words.
+    #[error("{0}")]
+    Exchange(String),
     /// A step too short or too long to compute.
     #[error("heat step of {dt} s is outside {shortest} to {longest} s")]
     StepSize {

@@ -11,7 +11,6 @@ use super::reduced::ReducedBody;
 use super::reduction::ReducedBasis;
 use super::refined::divided;
 use super::size::contact_zone;
-use crate::analytic::HalfPlane;
 use crate::config::Config;
 use crate::fem::graded::GUARDS;
 use crate::linalg::Lagrange;
@@ -43,8 +42,6 @@ pub struct SmoothBodies {
     pub wheel: Box<dyn BodyResponse>,
     /// The rail.
     pub rail: Box<dyn BodyResponse>,
-    /// Half-plane that they lack.
-    pub half_plane: HalfPlane,
     /// Half of the length over which they are known \[m].
     pub reach: f64,
 }
@@ -80,7 +77,7 @@ pub fn bodies(
         let part = |body: &ReducedBasis, side| body.cut(ports.clone()).smooth(x, &points, half_plane, side);
         let wheel = ReducedBody::new(part(&basis.wheel, 1.0)?, centrifugal, &damping[0]);
         let rail = ReducedBody::new(part(&basis.rail, -1.0)?, false, &damping[1]);
-        Some(SmoothBodies { wheel: Box::new(wheel), rail: Box::new(rail), half_plane, reach })
+        Some(SmoothBodies { wheel: Box::new(wheel), rail: Box::new(rail), reach })
     });
     let parts = grid_cells_per_element(config);
     let (elements, surface_x) = (surface_x.clone(), divided(&surface_x, parts));

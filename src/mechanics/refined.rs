@@ -7,7 +7,7 @@
 //! `docs/theory/kernel-correction.md`.
 
 use super::reduction::{ReducedBasis, scale_columns};
-use super::remainder::{nodal, remainder};
+use super::remainder::{from_components, nodal, remainder};
 use crate::analytic::HalfPlane;
 use crate::linalg::dense::symmetrise;
 use nalgebra::DMatrix;
@@ -28,26 +28,31 @@ impl ReducedBasis {
     /// of the body, which lies above its surface (`side` 1) or below it (−1).
     pub(super) fn refined(&self, x: &[f64], finer: &[f64], half_plane: HalfPlane, side: f64) -> Self {
         let between = interpolation(x, finer);
-        let shapes = rows_between(&between, &self.shapes);
-        let centrifugal =
-            DMatrix::from_column_slice(self.centrifugal_residual.len(), 1, self.centrifugal_residual.as_slice());
         let compliance = self.compliance();
-        let mut residual = DMatrix::zeros(2 * finer.len(), 2 * finer.len());
-        for (c, d) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let rest = remainder(&compliance, (c, d), x, half_plane, side);
-            let fine = &between * rest * between.transpose();
+        let finer_compliance = from_components(finer.len(), |(c, d)| {
+            let mut fine = &between * remainder(&compliance, (c, d), x, half_plane, side) * between.transpose();
             for (i, j) in (0..finer.len()).flat_map(|i| (0..finer.len()).map(move |j| (i, j))) {
-                residual[(2 * i + c, 2 * j + d)] = fine[(i, j)] + nodal(half_plane, (c, d), finer, (i, j), side);
+                fine[(i, j)] += nodal(half_plane, (c, d), finer, (i, j), side);
             }
-        }
+            fine
+        });
+        self.on_surface(&between, finer_compliance)
+    }
+
+    /// This body with a surface whose values follow from those of its own by the matrix `between` and whose `compliance` is
+    /// given [m/(N/m)].
+    pub(super) fn on_surface(&self, between: &DMatrix<f64>, compliance: DMatrix<f64>) -> Self {
+        let (shapes, mut residual) = (rows_between(between, &self.shapes), compliance);
         let weighted = scale_columns(&shapes, &self.squared_frequencies.map(f64::recip));
         residual.gemm(-1.0, &weighted, &shapes.transpose(), 1.0);
         symmetrise(&mut residual);
+        let centrifugal = self.centrifugal_residual.as_slice();
+        let centrifugal = DMatrix::from_column_slice(centrifugal.len(), 1, centrifugal);
         Self {
             residual,
-            rigid_residual: rows_between(&between, &self.rigid_residual),
-            centrifugal_residual: rows_between(&between, &centrifugal).column(0).into_owned(),
-            carried: self.carried.as_ref().map(|carried| rows_between(&between, carried)),
+            rigid_residual: rows_between(between, &self.rigid_residual),
+            centrifugal_residual: rows_between(between, &centrifugal).column(0).into_owned(),
+            carried: self.carried.as_ref().map(|carried| rows_between(between, carried)),
             shapes,
             ..self.clone()
         }

@@ -22,16 +22,27 @@ impl ReducedBasis {
 /// Displacements that finite elements lack between all nodes `x` \[m], whose static `compliance` has the components x and y
 /// of every node: what the [`remainder`] leaves out [m/(N/m)].
 pub(super) fn missing(compliance: &DMatrix<f64>, x: &[f64], half_plane: HalfPlane, side: f64) -> DMatrix<f64> {
-    let mut missing = DMatrix::zeros(2 * x.len(), 2 * x.len());
-    for (c, d) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+    let mut missing = from_components(x.len(), |(c, d)| {
         let rest = remainder(compliance, (c, d), x, half_plane, side);
-        for (i, j) in (0..x.len()).flat_map(|i| (0..x.len()).map(move |j| (i, j))) {
+        DMatrix::from_fn(x.len(), x.len(), |i, j| {
             let corrected = rest[(i, j)] + nodal(half_plane, (c, d), x, (i, j), side);
-            missing[(2 * i + c, 2 * j + d)] = corrected - compliance[(2 * i + c, 2 * j + d)];
-        }
-    }
+            corrected - compliance[(2 * i + c, 2 * j + d)]
+        })
+    });
     symmetrise(&mut missing);
     missing
+}
+
+/// Matrix between the components x and y of `n` nodes, from those between components of all nodes.
+pub(super) fn from_components(n: usize, of: impl Fn((usize, usize)) -> DMatrix<f64>) -> DMatrix<f64> {
+    let mut whole = DMatrix::zeros(2 * n, 2 * n);
+    for (c, d) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        let part = of((c, d));
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            whole[(2 * i + c, 2 * j + d)] = part[(i, j)];
+        }
+    }
+    whole
 }
 
 /// Rest of a `compliance` between all nodes `x` \[m]: displacement in direction `c` by forces in direction `d`, less

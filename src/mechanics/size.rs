@@ -48,11 +48,10 @@ fn check(config: &Config, zone: ContactZone) -> Result<(), MechanicsError> {
 /// Values of the parameters from which the number of unknowns follows.
 fn causes(config: &Config) -> String {
     let half_width = nominal_half_width(config);
-    format!(
-        "cells grow from the half-width of the nominal contact, {half_width:.3e} m, over mesh.elements_per_half_width = {} \
-         to 1/20 of wheel.radius = {} m, or 1/150 of a longer rail, and fill rail.length = {} m times rail.height = {} m",
-        config.mesh.elements_per_half_width, config.wheel.radius, config.rail.length, config.rail.height
-    )
+    config.told(&format!(
+        "cells grow from the half-width of the nominal contact, {half_width:.3e} m, over {{mesh.elements_per_half_width}} \
+         to 1/20 of {{wheel.radius}}, or 1/150 of a longer rail, and fill {{rail.length}} times {{rail.height}}"
+    ))
 }
 
 fn wheel_unknowns(config: &Config, zone: ContactZone) -> Result<f64, MechanicsError> {

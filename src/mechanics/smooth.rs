@@ -5,69 +5,21 @@
 //! it: its ports are the displacements at a few points of the contact zone. The modes are those of the body with all
 //! its surface nodes. Derivation: `docs/theory/patch-contact.md`.
 
-use super::reduction::{ReducedBasis, scale_columns};
-use super::remainder::remainder;
+use super::reduction::ReducedBasis;
+use super::remainder::{from_components, remainder};
 use crate::analytic::HalfPlane;
 use crate::linalg::Lagrange;
 pub use crate::linalg::POINTS;
-use crate::linalg::dense::symmetrise;
-use nalgebra::DMatrix;
 
 impl ReducedBasis {
     /// The body less a half-plane, on the points of `basis`; `x` are its surface nodes \[m]. `None` where there are too
     /// few.
     pub(super) fn smooth(&self, x: &[f64], basis: &Lagrange, half_plane: HalfPlane, side: f64) -> Option<Self> {
-        let compliance = self.compliance();
-        let projection = Projection::new(x, basis)?;
-        let shapes = projection.of(&self.shapes);
-        let mut residual = projection.fit(|c, d| remainder(&compliance, (c, d), x, half_plane, side));
-        let weighted = scale_columns(&shapes, &self.squared_frequencies.map(f64::recip));
-        residual.gemm(-1.0, &weighted, &shapes.transpose(), 1.0);
-        symmetrise(&mut residual);
-        let centrifugal = DMatrix::from_column_slice(2 * x.len(), 1, self.centrifugal_residual.as_slice());
-        Some(Self {
-            shapes,
-            residual,
-            rigid_residual: projection.of(&self.rigid_residual),
-            centrifugal_residual: projection.of(&centrifugal).column(0).into_owned(),
-            ..self.clone()
-        })
-    }
-}
-
-/// From surface nodes to the points of a polynomial.
-struct Projection {
-    matrix: DMatrix<f64>,
-}
-
-impl Projection {
-    fn new(x: &[f64], basis: &Lagrange) -> Option<Self> {
-        Some(Self { matrix: basis.projection(x)? })
-    }
-
-    /// Rows of surface components at the nodes as rows at the points.
-    fn of(&self, rows: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut projected = DMatrix::zeros(2 * POINTS, rows.ncols());
-        for component in 0..2 {
-            let own = DMatrix::from_fn(rows.nrows() / 2, rows.ncols(), |i, j| rows[(2 * i + component, j)]);
-            let own = &self.matrix * own;
-            for k in 0..POINTS {
-                projected.row_mut(2 * k + component).copy_from(&own.row(k));
-            }
-        }
-        projected
-    }
-
-    /// The polynomial of two places, by components `c` and `d`, next to the values `rest` at all pairs of nodes.
-    fn fit(&self, rest: impl Fn(usize, usize) -> DMatrix<f64>) -> DMatrix<f64> {
-        let mut fitted = DMatrix::zeros(2 * POINTS, 2 * POINTS);
-        for (c, d) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let values = &self.matrix * rest(c, d) * self.matrix.transpose();
-            for (k, l) in (0..POINTS).flat_map(|k| (0..POINTS).map(move |l| (k, l))) {
-                fitted[(2 * k + c, 2 * l + d)] = values[(k, l)];
-            }
-        }
-        fitted
+        let (compliance, matrix) = (self.compliance(), basis.projection(x)?);
+        let fitted = from_components(POINTS, |component| {
+            &matrix * remainder(&compliance, component, x, half_plane, side) * matrix.transpose()
+        });
+        Some(self.on_surface(&matrix, fitted))
     }
 }
 
@@ -93,11 +45,7 @@ mod tests {
             let x: Vec<f64> = (0..=2 * half).map(|i| h * (i as f64 - half as f64)).collect();
             let basis = Lagrange::new(h * half as f64);
             let smooth = body.smooth(&x, &basis, half_plane, side).unwrap();
-            let statics = |body: &ReducedBasis| {
-                let weighted = scale_columns(&body.shapes, &body.squared_frequencies.map(f64::recip));
-                &body.residual + weighted * body.shapes.transpose()
-            };
-            let (exact, rest) = (statics(&body), statics(&smooth));
+            let (exact, rest) = (body.compliance(), smooth.compliance());
             let mut worst = 0.0_f64;
             for (i, j) in [(0, 30), (3, 20), (10, 22), (31, 12), (16, 32)] {
                 let (at, from) = (basis.values(x[i]), basis.values(x[j]));

@@ -94,11 +94,6 @@ impl BodySystem {
         self.mass.rows()
     }
 
-    /// Picks the surface components of a field.
-    pub fn on_surface(&self, field: &DVector<f64>) -> DVector<f64> {
-        DVector::from_iterator(self.surface.len(), self.surface.iter().map(|&i| field[i]))
-    }
-
     /// Picks the surface components of several fields.
     pub fn rows_on_surface(&self, fields: &DMatrix<f64>) -> DMatrix<f64> {
         fields.select_rows(self.surface.iter())

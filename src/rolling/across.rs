@@ -27,14 +27,14 @@ impl Seen<'_> {
 /// All lines of a patch: those that stand for a symmetric pair twice.
 fn seen<'a>(model: &RollingModel, state: &'a State) -> Vec<Seen<'a>> {
     let (width, lateral) = (model.wheel.width, 0.5 * model.wheel.width * state.covered());
-    let centre = model.contact.patch.centre();
+    let centre = model.contact.patch.centre;
     let of = |(line, part, side): (&'a Line, f64, f64)| Seen {
         line,
         position: centre + side * lateral * line.layout.ordinate,
         width: part * width * line.layout.share,
     };
     let lines = state.lines.iter();
-    if !model.contact.patch.is_symmetric() {
+    if !model.contact.patch.symmetric {
         return lines.map(|line| of((line, 1.0, 1.0))).collect();
     }
     let middle = |line: &&Line| line.layout.ordinate == 0.0;

@@ -4,7 +4,7 @@
 use super::ramp::{RAMP_NUMBERS, RampRow, STEEPEST};
 use crate::config::row::{Level, Row};
 use crate::config::units::Measure;
-use crate::config::value::{RowValue, ValueLimits, choice};
+use crate::config::value::{RowValue, ValueLimits, choice, questions};
 use crate::config::{display_outside, display_range};
 use serde::{Deserialize, Serialize};
 
@@ -48,44 +48,15 @@ choice! {
     }
 }
 
-impl Rotation {
+questions! {
     /// The angular velocity is prescribed, the moment its reaction.
-    pub fn prescribes_motion(self) -> bool {
-        match self {
-            Rotation::Velocity => true,
-            Rotation::Moment => false,
-        }
-    }
-}
-
-impl Translation {
+    Rotation: prescribes_motion { Velocity => true, Moment => false }
     /// The travel velocity is prescribed, the horizontal force its reaction.
-    pub fn prescribes_motion(self) -> bool {
-        match self {
-            Translation::Velocity => true,
-            Translation::Force => false,
-        }
-    }
-}
-
-impl Vertical {
+    Translation: prescribes_motion { Velocity => true, Force => false }
     /// The hub height is prescribed, the load its reaction.
-    pub fn prescribes_motion(self) -> bool {
-        match self {
-            Vertical::Force => false,
-            Vertical::Displacement => true,
-        }
-    }
-}
-
-impl Lateral {
+    Vertical: prescribes_motion { Displacement => true, Force => false }
     /// The lateral velocity is prescribed, the lateral force its reaction.
-    pub fn prescribes_motion(self) -> bool {
-        match self {
-            Lateral::Velocity => true,
-            Lateral::Force => false,
-        }
-    }
+    Lateral: prescribes_motion { Velocity => true, Force => false }
 }
 
 /// The row of one real input.
@@ -346,6 +317,20 @@ impl Drive {
     }
 }
 
+/// Nothing drives the wheel, which moves freely but for the side.
+impl Default for Inputs {
+    fn default() -> Self {
+        Self {
+            rotation: Rotation::Moment,
+            translation: Translation::Force,
+            vertical: Vertical::Force,
+            lateral: Lateral::Velocity,
+            drive: Drive::default(),
+            rate: Drive::default(),
+        }
+    }
+}
+
 impl Inputs {
     /// Refuses inputs out of range, infinite or not a number; rates of motions only need to be finite.
     pub fn validate(&self) -> Result<(), InputError> {
@@ -389,9 +374,7 @@ mod tests {
             let (mut values, mut rates) = ([0.0; COUNT], [0.0; COUNT]);
             (values[k], rates[k]) = (start, slope);
             let (drive, rate) = (Drive::from_values(values), Drive::from_values(rates));
-            let (rotation, translation, vertical, lateral) =
-                (Rotation::Moment, Translation::Force, Vertical::Force, Lateral::Velocity);
-            Inputs { rotation, translation, vertical, lateral, drive, rate }
+            Inputs { drive, rate, ..Inputs::default() }
         };
         assert!(start + step * (-start / step) < 0.0, "the case rounds below zero");
         for (k, row) in Drive::ROWS.iter().enumerate().filter(|(_, row)| row.low == 0.0) {
@@ -402,12 +385,7 @@ mod tests {
 
     #[test]
     fn a_rate_that_is_not_finite_is_refused_as_a_rate() {
-        let (rotation, translation, vertical, lateral) =
-            (Rotation::Moment, Translation::Force, Vertical::Force, Lateral::Velocity);
-        let refused = |rate: Drive| {
-            let inputs = Inputs { rotation, translation, vertical, lateral, drive: Drive::default(), rate };
-            inputs.validate().unwrap_err().to_string()
-        };
+        let refused = |rate: Drive| Inputs { rate, ..Inputs::default() }.validate().unwrap_err().to_string();
         let motion = refused(Drive { velocity: f64::INFINITY, ..Drive::default() });
         assert_eq!(motion, "der(drive.velocity) = inf is outside its range: finite numbers");
         let force = refused(Drive { load: f64::INFINITY, ..Drive::default() });

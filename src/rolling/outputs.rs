@@ -202,7 +202,7 @@ pub fn complete(model: &RollingModel, state: &State, outputs: &mut Outputs) {
         (Some(heat), Some(thermal)) => {
             let angle = state.motion.angle;
             let [.., below] =
-                heat.below(thermal, angle, heat.history().hottest_angle(&thermal.damage).unwrap_or(angle));
+                heat.below(thermal, angle, heat.history().spots.hottest_angle(&thermal.damage).unwrap_or(angle));
             below
         }
         _ => vec![0.0; PROFILE_POINTS],
@@ -286,7 +286,7 @@ fn thermal_outputs(model: &RollingModel, state: &State, shown: &Line, others: Ou
         profile_martensite: damaged
             .map_or_else(|| vec![0.0; PROFILE_POINTS], |damage| heat.history().martensite(damage)),
         profile_depth: profile_depths(),
-        hottest_point: damaged.and_then(|damage| heat.history().hottest_angle(damage)).unwrap_or(0.0),
+        hottest_point: damaged.and_then(|damage| heat.history().spots.hottest_angle(damage)).unwrap_or(0.0),
         ..flow_outputs(model, state, others)
     }
 }

@@ -29,21 +29,26 @@ pub fn apart(config: &Config) -> LineKernel {
 
 /// Lines of the patch.
 #[derive(Clone, Debug)]
-pub enum PatchLines {
-    /// Lines of one layout under any load; those beside the middle may stand for symmetric pairs.
-    Constant {
-        /// The lines.
-        lines: Vec<LineLayout>,
-        /// True if lines beside the middle stand for a pair.
-        symmetric: bool,
-        /// Lateral position of the centre of load \[m].
-        centre: f64,
-        /// Free widths before the lines \[m].
-        gaps: Vec<f64>,
-        /// Flexibility under each other's tangential forces; `None`: they are alone but for the bodies.
-        flexibility: Option<Arc<PatchFlexibility>>,
-    },
-    /// Lines of a patch whose size follows from its load.
+pub struct PatchLines {
+    /// How they are laid out.
+    layouts: Layouts,
+    /// Number of lines.
+    pub count: usize,
+    /// True if lines beside the middle stand for a symmetric pair.
+    pub symmetric: bool,
+    /// Lateral position of the centre of load, about which the patch grows and shrinks \[m].
+    pub centre: f64,
+    /// Free widths between every line and the one before it under the nominal load \[m]; none where all touch.
+    pub gaps: Vec<f64>,
+}
+
+/// Layouts of lines and the load.
+#[derive(Clone, Debug)]
+enum Layouts {
+    /// One under any load, with the flexibility of lines under each other's tangential forces; `None`: they are alone but
+    /// for the bodies.
+    Constant(Vec<LineLayout>, Option<Arc<PatchFlexibility>>),
+    /// Those of a patch whose size follows from its load.
     Sized {
         /// The patch.
         patch: Box<PatchLayout>,
@@ -83,76 +88,38 @@ impl PatchLines {
             (_, None) => PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load),
         };
         let lateral = |patch: PatchLayout| if config.contact.lateral { patch.sideways() } else { patch };
-        if smooth {
-            let roomy = config.contact.lateral && config.physics.yielding;
-            let roomy = roomy.then(|| Box::new(lateral(patch.clone().with_room())));
-            return Ok(Self::Sized { patch: Box::new(lateral(patch)), roomy });
-        }
-        let patch = lateral(patch.with_room());
-        Ok(Self::Constant {
-            lines: patch.staying(load, longest_patch(config)),
-            symmetric: patch.is_symmetric(),
-            centre: patch.centre(),
-            gaps: patch.gaps().to_vec(),
-            flexibility: Some(patch.flexibility().clone()),
-        })
+        let roomy = || lateral(patch.clone().with_room());
+        let patch = if smooth { lateral(patch.clone()) } else { roomy() };
+        let (count, symmetric, centre, gaps) =
+            (patch.len(), patch.is_symmetric(), patch.centre(), patch.gaps().to_vec());
+        let layouts = match smooth {
+            true => Layouts::Sized {
+                roomy: (config.contact.lateral && config.physics.yielding).then(|| Box::new(roomy())),
+                patch: Box::new(patch),
+            },
+            false => Layouts::Constant(patch.staying(load, longest_patch(config)), Some(patch.flexibility().clone())),
+        };
+        Ok(Self { layouts, count, symmetric, centre, gaps })
     }
 
     /// Lines with given shares of the width and one flexibility.
     pub fn constant(shares: &[f64], kernel: LineKernel) -> Self {
         let layout = |share: &f64| LineLayout { share: *share, kernel, ..LineLayout::default() };
-        Self::Constant {
-            lines: shares.iter().map(layout).collect(),
-            symmetric: false,
-            centre: 0.0,
-            gaps: Vec::new(),
-            flexibility: None,
-        }
-    }
-
-    /// Number of lines.
-    pub fn count(&self) -> usize {
-        match self {
-            Self::Constant { lines, .. } => lines.len(),
-            Self::Sized { patch, .. } => patch.len(),
-        }
-    }
-
-    /// True if lines beside the middle stand for a symmetric pair.
-    pub fn is_symmetric(&self) -> bool {
-        match self {
-            Self::Constant { symmetric, .. } => *symmetric,
-            Self::Sized { patch, .. } => patch.is_symmetric(),
-        }
-    }
-
-    /// Lateral position of the centre of load, about which the patch grows and shrinks \[m].
-    pub fn centre(&self) -> f64 {
-        match self {
-            Self::Constant { centre, .. } => *centre,
-            Self::Sized { patch, .. } => patch.centre(),
-        }
-    }
-
-    /// Free widths between every line and the one before it under the nominal load \[m]; none where all touch.
-    pub fn gaps(&self) -> &[f64] {
-        match self {
-            Self::Constant { gaps, .. } => gaps,
-            Self::Sized { patch, .. } => patch.gaps(),
-        }
+        let layouts = Layouts::Constant(shares.iter().map(layout).collect(), None);
+        Self { layouts, count: shares.len(), symmetric: false, centre: 0.0, gaps: Vec::new() }
     }
 
     /// Flexibility of the lines on given ports under each other's tangential forces, if they feel them.
     pub fn flexibility(&self, ports: Ports) -> Option<&PatchFlexibility> {
-        match self {
-            Self::Constant { flexibility, .. } => flexibility.as_deref(),
-            Self::Sized { .. } => self.sized(ports).map(|patch| &**patch.flexibility()),
+        match &self.layouts {
+            Layouts::Constant(_, flexibility) => flexibility.as_deref(),
+            Layouts::Sized { .. } => self.sized(ports).map(|patch| &**patch.flexibility()),
         }
     }
 
     /// Patch on given ports whose size follows from its load.
     fn sized(&self, ports: Ports) -> Option<&PatchLayout> {
-        let Self::Sized { patch, roomy } = self else { return None };
+        let Layouts::Sized { patch, roomy } = &self.layouts else { return None };
         match ports {
             Ports::Smooth => Some(patch),
             Ports::Narrow | Ports::Wide => Some(roomy.as_ref().unwrap_or(patch)),
@@ -161,17 +128,17 @@ impl PatchLines {
 
     /// Load of which lines are laid out while they carry `load` \[N]; zero where that does not matter.
     pub fn load_of(&self, load: f64) -> f64 {
-        match self {
-            Self::Constant { .. } => 0.0,
-            Self::Sized { patch, .. } => patch.load_of(load),
+        match &self.layouts {
+            Layouts::Constant(..) => 0.0,
+            Layouts::Sized { patch, .. } => patch.load_of(load),
         }
     }
 
     /// Load for which lines are laid out \[N]; zero where that does not matter.
     pub fn load_laid_out(&self, lines: &[Line]) -> f64 {
-        match (self, lines) {
-            (Self::Constant { .. }, _) | (_, []) => 0.0,
-            (Self::Sized { patch, .. }, [first, ..]) => patch.load_of_share(first.layout.share),
+        match (&self.layouts, lines) {
+            (Layouts::Constant(..), _) | (_, []) => 0.0,
+            (Layouts::Sized { patch, .. }, [first, ..]) => patch.load_of_share(first.layout.share),
         }
     }
 
@@ -182,11 +149,11 @@ impl PatchLines {
 
     /// Gives lines on given ports the layout of a load \[N].
     pub fn lay_out(&self, load: f64, ports: Ports, lines: &mut [Line]) {
-        match self {
-            Self::Constant { lines: layouts, .. } => {
+        match &self.layouts {
+            Layouts::Constant(layouts, _) => {
                 lines.iter_mut().zip(layouts).for_each(|(line, layout)| line.layout = *layout);
             }
-            Self::Sized { .. } => {
+            Layouts::Sized { .. } => {
                 let layouts = self.layouts(load, ports).unwrap_or_default();
                 lines.iter_mut().zip(layouts).for_each(|(line, layout)| line.layout = layout);
             }
@@ -200,9 +167,9 @@ impl PatchLines {
             let sizes = [share, half_length].iter().all(|size| *size > 0.0 && size.is_finite());
             sizes && kernel.is_sound() && [ordinate, position, gap, energy].iter().all(|value| value.is_finite())
         };
-        match self {
-            Self::Constant { lines: layouts, .. } => lines.iter().map(|line| line.layout).eq(layouts.iter().copied()),
-            Self::Sized { .. } => lines.len() == self.count() && lines.iter().all(sound),
+        match &self.layouts {
+            Layouts::Constant(layouts, _) => lines.iter().map(|line| line.layout).eq(layouts.iter().copied()),
+            Layouts::Sized { .. } => lines.len() == self.count && lines.iter().all(sound),
         }
     }
 }

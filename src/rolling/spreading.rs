@@ -19,7 +19,7 @@ pub fn spread(model: &RollingModel, state: &State, dt: f64, next: &mut State) ->
         return Ok(());
     }
     // Fields belong to z/b: cells are those of the nominal patch, and a wider patch evens out more slowly.
-    let (nominal, covered, symmetric) = (model.patch_width, next.covered(), model.contact.patch.is_symmetric());
+    let (nominal, covered, symmetric) = (model.patch_width, next.covered(), model.contact.patch.symmetric);
     let in_the_middle = |k: usize, line: &Line| k == 0 && symmetric && line.layout.ordinate == 0.0;
     let width = |(k, line): (usize, &Line)| {
         let of_pair = if symmetric && !in_the_middle(k, line) { 0.5 } else { 1.0 };
@@ -28,7 +28,7 @@ pub fn spread(model: &RollingModel, state: &State, dt: f64, next: &mut State) ->
     let widths: Vec<f64> = next.lines.iter().enumerate().map(width).collect();
     let cells = match in_the_middle(0, &next.lines[0]) {
         true => LateralCells::half(&widths, &[])?,
-        false => LateralCells::side_by_side(&widths)?.apart(model.contact.patch.gaps()),
+        false => LateralCells::side_by_side(&widths)?.apart(&model.contact.patch.gaps),
     };
     let diffusivity = model.narrowing(next).powi(2) * Isotropic::from(&model.config.material).diffusivity();
     let hottest = next.lines.iter().map(Line::hottest);

@@ -12,10 +12,9 @@ use crate::rolling::ModelError;
 
 /// The message of a step that failed, with advice.
 pub fn failed_step(error: &StepError, config: &Config) -> String {
-    let shorter = format!(
-        "take shorter communication steps, lower solver.max_step (now {:?} s) or solver.tolerance (now {:?}; 0: not \
-         used), and change prescribed velocities and loads more gently",
-        config.tuning.max_step, config.tuning.tolerance
+    let shorter = config.told(
+        "take shorter communication steps, lower {solver.max_step now} or {solver.tolerance now} (0: not used), and \
+         change prescribed velocities and loads more gently",
     );
     let advice = match error {
         StepError::ZoneExceeded { load, zone: reached } => zone(*load, config)
@@ -28,11 +27,10 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
         StepError::Heat(HeatError::Input { .. }) => shorter,
         StepError::Heat(error) => heat(error, config),
         StepError::BelowAbsoluteZero { .. } => cold(config),
-        StepError::Overheated { .. } => format!(
-            "{shorter}; check friction.coefficient and rail.friction, drive.tread_heat, material.conductivity (now {:?} \
-             W/(m.K)) and thermal.conductance (now {:?} W/(m2.K)), or set material.latent_heat = 0 to leave melting out",
-            config.material.conductivity, config.thermal.conductance
-        ),
+        StepError::Overheated { .. } => config.told(&format!(
+            "{shorter}; check friction.coefficient and rail.friction, drive.tread_heat, {{material.conductivity now}} and \
+             {{thermal.conductance now}}, or set material.latent_heat = 0 to leave melting out"
+        )),
         StepError::Motion(_) => {
             "check drive.force, drive.moment and drive.load, or the prescribed velocities".to_owned()
         }
@@ -52,14 +50,11 @@ pub fn failed_start(error: &StepError, config: &Config, inputs: &Inputs) -> Stri
     let advice = match error {
         StepError::ZoneExceeded { load, zone: reached } => {
             zone(*load, config).or_else(|| uneven(*reached, config)).unwrap_or_else(|| {
-                format!(
+                config.told(&format!(
                     "the zone carries this load, so a higher model.nominal_load does not help: check \
-                 drive.displacement, initial.creepage (now {}), thermal.wheel_excess (now {:?} K) and rail.length (now \
-                 {:?} m)",
-                    creepage(config),
-                    config.thermal.wheel_excess,
-                    config.rail.length
-                )
+                     drive.displacement, {}, {{thermal.wheel_excess now}} and {{rail.length now}}",
+                    creepage(config)
+                ))
             })
         }
         StepError::BeyondAdhesion { .. } => {
@@ -75,12 +70,10 @@ pub fn failed_start(error: &StepError, config: &Config, inputs: &Inputs) -> Stri
         StepError::Contact { .. } | StepError::NotFinite { .. } | StepError::Unsettled => {
             unsettled(start::gentler(config, inputs), config)
         }
-        StepError::Motion(_) => format!(
-            "choose initial.velocity (now {:?} m/s) and initial.creepage (now {}), or the prescribed velocities, within \
-             this range",
-            config.initial.velocity,
+        StepError::Motion(_) => config.told(&format!(
+            "choose {{initial.velocity now}} and {}, or the prescribed velocities, within this range",
             creepage(config)
-        ),
+        )),
         StepError::Heat(error) => heat(error, config),
         StepError::BelowAbsoluteZero { .. } => cold(config),
         StepError::Body(_) => body(config),
@@ -131,13 +124,13 @@ fn flattened(zone: f64, config: &Config, otherwise: String) -> String {
 
 /// Advice to look for contact farther than in a zone of the half-width `zone` \[m].
 fn wider(zone: f64, config: &Config) -> String {
-    let (reach, enough) = (config.mesh.reach, WIDER * zone);
-    format!("set mesh.reach (now {reach:?} m), up to which contact is looked for, to {enough:.3} m or more")
+    let enough = WIDER * zone;
+    config.told(&format!("set {{mesh.reach now}}, up to which contact is looked for, to {enough:.3} m or more"))
 }
 
 /// The initial creepage in words.
-fn creepage(config: &Config) -> String {
-    config.initial.creepage.map_or_else(|| "not set".to_owned(), |creepage| format!("{creepage:?}"))
+fn creepage(config: &Config) -> &'static str {
+    if config.initial.creepage.is_some() { "{initial.creepage now}" } else { "initial.creepage (now not set)" }
 }
 
 /// The message of a model that could not be prepared, with advice.
@@ -154,82 +147,56 @@ pub fn failed_preparation(error: &PrepareError, config: &Config) -> String {
 
 /// Advice where the candidate zone is too short for the load; `None` where the load is not the reason.
 fn zone(load: f64, config: &Config) -> Option<String> {
-    let nominal = config.model.nominal_load;
-    (load > ZONE_LOAD * nominal).then(|| {
-        format!(
-            "the mesh is laid out for {ZONE_LOAD} x model.nominal_load (now {nominal:?} N); lower drive.load, or raise \
+    (load > ZONE_LOAD * config.model.nominal_load).then(|| {
+        config.told(&format!(
+            "the mesh is laid out for {ZONE_LOAD} x {{model.nominal_load now}}; lower drive.load, or raise \
              model.nominal_load and set drive.load, which follows it unless set"
-        )
+        ))
     })
 }
 
 fn heat(error: &HeatError, config: &Config) -> String {
-    let thermal = &config.thermal;
-    match error {
-        HeatError::Eigen { .. } => format!(
-            "change the layers of the thermal mesh by thermal.max_speed (now {:?} m/s) or thermal.smallest_load_ratio \
-             (now {:?})",
-            thermal.max_speed, thermal.smallest_load_ratio
-        ),
-        _ => format!(
-            "take shorter steps, or more usual values of thermal.conductance (now {:?} W/(m2 K)), thermal.convection \
-             (now {:?} W/(m2 K)) and material.conductivity (now {:?} W/(m K)); thermal.enabled = false runs without \
-             temperatures",
-            thermal.conductance, thermal.convection, config.material.conductivity
-        ),
-    }
+    config.told(match error {
+        HeatError::Eigen { .. } => {
+            "change the layers of the thermal mesh by {thermal.max_speed now} or {thermal.smallest_load_ratio now}"
+        }
+        _ => {
+            "take shorter steps, or more usual values of {thermal.conductance now}, {thermal.convection now} and \
+             {material.conductivity now}; thermal.enabled = false runs without temperatures"
+        }
+    })
 }
 
 /// Advice where a temperature falls below absolute zero.
 fn cold(config: &Config) -> String {
-    let (thermal, material) = (&config.thermal, &config.material);
-    let reversible = format!(
-        "lower material.expansion (now {:?} 1/K) or set physics.thermoelastic_heating = false, or ",
-        material.expansion
-    );
-    format!(
-        "{}take shorter steps, or more usual values of rail.temperature, thermal.reference (now {:?} K), thermal.wheel_excess \
-         (now {:?} K) and thermal.conductance (now {:?} W/(m2 K)); temperatures are in kelvin",
-        if config.physics.thermoelastic_heating { &reversible } else { "" },
-        thermal.reference,
-        thermal.wheel_excess,
-        thermal.conductance
-    )
+    let reversible = match config.physics.thermoelastic_heating {
+        true => "lower {material.expansion now} or set physics.thermoelastic_heating = false, or ",
+        false => "",
+    };
+    let usual = "take shorter steps, or more usual values of rail.temperature, {thermal.reference now}, \
+                 {thermal.wheel_excess now} and {thermal.conductance now}; temperatures are in kelvin";
+    config.told(&[reversible, usual].concat())
 }
 
 fn mechanics(error: &MechanicsError, config: &Config) -> String {
-    match error {
-        MechanicsError::Fem(FemError::ZoneTooLarge { .. }) => format!(
-            "the contact is too wide for the bodies; lower model.nominal_load (now {:?} N) and set drive.load, or raise model.contact_width \
-             (now {:?} m; with contact.shape = ellipse contact.rail_lateral_radius), material.youngs_modulus (now {:?} Pa), rail.length (now {:?} m) or rail.height (now {:?} m), \
-             or lower wheel.hub_radius (now {:?} m)",
-            config.model.nominal_load,
-            config.model.contact_width,
-            config.material.youngs_modulus,
-            config.rail.length,
-            config.rail.height,
-            config.wheel.hub_radius
-        ),
-        MechanicsError::Linalg(LinalgError::ModesNotConverged { .. } | LinalgError::TooManyModes { .. }) => {
-            body(config)
+    config.told(match error {
+        MechanicsError::Fem(FemError::ZoneTooLarge { .. }) => {
+            "the contact is too wide for the bodies; lower {model.nominal_load now} and set drive.load, or raise \
+             {model.contact_width now} (with contact.shape = ellipse contact.rail_lateral_radius), \
+             {material.youngs_modulus now}, {rail.length now} or {rail.height now}, or lower {wheel.hub_radius now}"
         }
-        _ => format!(
-            "choose more usual proportions of wheel.radius (now {:?} m), wheel.hub_radius (now {:?} m), rail.length (now \
-             {:?} m), rail.height (now {:?} m) and model.nominal_load (now {:?} N)",
-            config.wheel.radius,
-            config.wheel.hub_radius,
-            config.rail.length,
-            config.rail.height,
-            config.model.nominal_load
-        ),
-    }
+        MechanicsError::Linalg(LinalgError::ModesNotConverged { .. } | LinalgError::TooManyModes { .. }) => {
+            return body(config);
+        }
+        _ => {
+            "choose more usual proportions of {wheel.radius now}, {wheel.hub_radius now}, {rail.length now}, \
+             {rail.height now} and {model.nominal_load now}"
+        }
+    })
 }
 
 fn body(config: &Config) -> String {
-    format!(
-        "change solver.modes_wheel (now {}) and solver.modes_rail (now {}), or choose solver.response = full",
-        config.solver.modes_wheel, config.solver.modes_rail
-    )
+    config.told("change {solver.modes_wheel now} and {solver.modes_rail now}, or choose solver.response = full")
 }
 
 #[cfg(test)]

@@ -8,8 +8,7 @@ use std::path::Path;
 /// relative paths begin in the working directory or else in `folder`.
 pub fn read(mut config: Config, folder: Option<&Path>) -> Result<Config, ConfigError> {
     let Err(RowsError::Unread(name)) = config.patch_rows() else { return Ok(config) };
-    let unreadable = |files::Unread { path, reason, tried }| RowsError::Unreadable { path, reason, tried };
-    (_, config.contact.rows) = files::read_named(name.trim(), folder).map_err(unreadable)?;
+    (_, config.contact.rows) = files::read_named(name.trim(), folder).map_err(RowsError::from)?;
     // A text that ends like a name would be taken for one for ever.
     match patch_rows::is_file(&config.contact.rows) {
         true => Err(RowsError::Count(0).into()),

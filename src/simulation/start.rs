@@ -17,8 +17,7 @@ pub(super) fn gentler(config: &Config, inputs: &Inputs) -> String {
     let found = unusual(config, inputs);
     let way = "and bring the inputs to their values in the first steps";
     if found.is_empty() {
-        let velocity = display_number(config.initial.velocity);
-        return format!("start with another initial.velocity (now {velocity} m/s) {way}");
+        return config.told(&format!("start with another {{initial.velocity now}} {way}"));
     }
     format!("what is unusual about this start: {}; start with more usual values {way}", found.join("; "))
 }
@@ -35,8 +34,11 @@ fn unusual(config: &Config, inputs: &Inputs) -> Vec<String> {
             heat.push(format!("{} = {} W", row.name, number(value)));
         }
         if drive.torque > 0.0 && config.brake.tread_share > 0.0 {
-            let share = number(config.brake.tread_share);
-            heat.push(format!("brake.torque = {} N.m with brake.tread_share = {share}", number(drive.torque)));
+            heat.push(format!(
+                "brake.torque = {} N.m with {}",
+                number(drive.torque),
+                config.given("brake.tread_share")
+            ));
         }
         let heat = if heat.is_empty() { "the friction of this start".to_owned() } else { heat.join(" and ") };
         found.push(format!(
@@ -48,8 +50,7 @@ fn unusual(config: &Config, inputs: &Inputs) -> Vec<String> {
     } else {
         let (pressing, nominal) = (drive.pressing(), config.model.nominal_load);
         if !(LOADS[0] * nominal..=LOADS[1] * nominal).contains(&pressing) {
-            let (pressing, nominal) = (number(pressing), number(nominal));
-            found.push(format!("drive.load = {pressing} N where model.nominal_load = {nominal} N"));
+            found.push(format!("drive.load = {} N where {}", number(pressing), config.given("model.nominal_load")));
         }
     }
     found.extend(slide(config, inputs));

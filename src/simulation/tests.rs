@@ -17,15 +17,17 @@ fn solved(shape: ContactShape, profile: &str, moment: f64) -> [u64; 2] {
     let mut inputs = Inputs::rolling(model.config());
     let mut simulation = Simulation::new(model, &inputs).unwrap();
     inputs.drive.moment = moment;
-    let (mut tools, mut before) = (Box::<Tools>::default(), [0; 2]);
+    let counted =
+        |simulation: &Simulation| simulation.model.shelf.lend(|tools| tools.workspace.contact.active_set.solved());
+    let mut before = [0; 2];
     for step in 0..220 {
         // The first steps follow the change of the moment.
         if step == 20 {
-            before = tools.workspace.contact.active_set.solved();
+            before = counted(&simulation);
         }
-        simulation.advance_with(&inputs, 1e-4, &mut tools).unwrap();
+        simulation.advance(&inputs, 1e-4).unwrap();
     }
-    let after = tools.workspace.contact.active_set.solved();
+    let after = counted(&simulation);
     [after[0] - before[0], after[1] - before[1]]
 }
 

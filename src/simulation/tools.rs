@@ -20,13 +20,11 @@ pub(super) struct Tools {
 pub(super) struct Shelf(Mutex<Vec<Box<Tools>>>);
 
 impl Shelf {
-    /// Tools for one computation.
-    pub fn take(&self) -> Box<Tools> {
-        lock(&self.0).pop().unwrap_or_default()
-    }
-
-    /// Puts tools back.
-    pub fn put_back(&self, tools: Box<Tools>) {
+    /// Lends tools to one computation.
+    pub fn lend<T>(&self, compute: impl FnOnce(&mut Tools) -> T) -> T {
+        let mut tools = lock(&self.0).pop().unwrap_or_default();
+        let computed = compute(&mut tools);
         lock(&self.0).push(tools);
+        computed
     }
 }

@@ -215,12 +215,11 @@ fn of_load(settings: &Settings, config: &Config) -> Option<String> {
     let warms = libm::cbrt(nominal / load);
     let wrong = spreads && load > 0.0 && (warms - 1.0).abs() > WARMS_OTHERWISE;
     wrong.then(|| {
-        format!(
-            "drive.load = {} N, but wheel and rail take up heat as under a patch that belongs to model.nominal_load = {} N: as a \
+        config.told(&format!(
+            "drive.load = {} N, but wheel and rail take up heat as under a patch that belongs to {{model.nominal_load}}: as a \
              whole they warm {warms:.2} times as much as they should; set model.nominal_load to the mean load of the run",
-            display_number(load),
-            display_number(nominal)
-        )
+            display_number(load)
+        ))
     })
 }
 
@@ -258,11 +257,9 @@ fn of_rows_load(settings: &Settings, config: &Config) -> Option<String> {
     let (rows_load, nominal) = (config.contact.rows_load, config.model.nominal_load);
     let unsaid = is_set(settings, "contact.rows") && !is_set(settings, "contact.rows_load");
     (config.contact.shape.has_rows() && unsaid && rows_load != nominal).then(|| {
-        format!(
-            "contact.rows counts as the patch under contact.rows_load = {} N, its default, and not under model.nominal_load = {} N: \
+        config.told(
+            "contact.rows counts as the patch under {contact.rows_load}, its default, and not under {model.nominal_load}: \
              set contact.rows_load to the load of the table",
-            display_number(rows_load),
-            display_number(nominal)
         )
     })
 }
@@ -274,15 +271,13 @@ fn of_width(settings: &Settings, config: &Config) -> Option<String> {
     let (share, usual) = (pressure(config) / pressure(&settings.base), settings.base.model.contact_width);
     let doubtful = set && config.contact.shape.is_line() && !(1.0 / FAR_PRESSURE..FAR_PRESSURE).contains(&share);
     doubtful.then(|| {
-        format!(
-            "model.contact_width = {} m gives model.nominal_load = {} N {share:.2} times the pressure of preset \"{}\", in which \
+        config.told(&format!(
+            "{{model.contact_width}} gives {{model.nominal_load}} {share:.2} times the pressure of preset \"{}\", in which \
              the width is {} m: it is the width of the patch, not that of wheel or rail (thermal.rim_width, \
              thermal.head_width); two wheels have twice the width under twice the load",
-            display_number(config.model.contact_width),
-            display_number(config.model.nominal_load),
             settings.preset,
             display_number(usual)
-        )
+        ))
     })
 }
 

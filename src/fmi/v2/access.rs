@@ -4,7 +4,7 @@
 use super::description;
 use super::variables::find;
 use crate::fmi::instance::WheelSlave;
-use crate::fmi::table::{self, no_such_variable};
+use crate::fmi::table::{self, of_type};
 use crate::fmi::variable::{Kind, Value, Variable};
 use wheelrail_slave::{CallError, Life, Outcome, Reference, Scalar, ScalarAccess, Type};
 
@@ -20,17 +20,7 @@ pub fn type_of(kind: Kind) -> Type {
 
 /// Variables of one type, refusing unknown references and other types.
 fn lookup(references: &[Reference], wanted: Type) -> Outcome<Vec<&'static Variable>> {
-    let variable = |reference: &Reference| {
-        let unknown = || CallError::error(no_such_variable(*reference));
-        let variable = find(*reference).ok_or_else(unknown)?;
-        let theirs = type_of(variable.kind);
-        if theirs == wanted {
-            return Ok(variable);
-        }
-        let name = variable.name;
-        Err(CallError::error(format!("{name} (value reference {reference}) is {theirs:?}, not {wanted:?}")))
-    };
-    references.iter().map(variable).collect()
+    of_type(references, wanted, find, type_of)
 }
 
 impl ScalarAccess for WheelSlave {

@@ -1,7 +1,7 @@
 //! The scalar variables of FMI 2.0: the table with its arrays spread over one variable per element.
 
 use crate::config::Config;
-use crate::fmi::table::{preset, table};
+use crate::fmi::table::{Order, find_in, preset, table};
 use crate::fmi::variable::{Reference, Variable};
 use crate::simulation::{Drive, Inputs, Outputs};
 use std::array::from_fn;
@@ -33,12 +33,6 @@ pub fn variables() -> &'static [Variable] {
 
 /// Variable with the given value reference.
 pub fn find(reference: Reference) -> Option<&'static Variable> {
-    static ORDER: OnceLock<[(Reference, usize); COUNT]> = OnceLock::new();
-    let order = ORDER.get_or_init(|| {
-        let mut order = from_fn(|k| (variables()[k].reference, k));
-        order.sort_unstable();
-        order
-    });
-    let position = order.binary_search_by_key(&reference, |entry| entry.0).ok()?;
-    Some(&variables()[order[position].1])
+    static ORDER: Order<COUNT> = OnceLock::new();
+    find_in(variables(), &ORDER, reference)
 }

@@ -2,7 +2,7 @@
 
 use super::description;
 use crate::fmi::instance::WheelSlave;
-use crate::fmi::table::{find, no_such_variable};
+use crate::fmi::table::{find, of_type};
 use crate::fmi::variable::{Causality, Kind, Variable};
 use wheelrail_slave::array_access::check_length;
 use wheelrail_slave::course::Course;
@@ -22,16 +22,7 @@ pub fn element_type_of(kind: Kind) -> ElementType {
 
 /// Rows of one type, refusing unknown references and other types.
 fn rows(references: &[Reference], wanted: ElementType) -> Outcome<Vec<&'static Variable>> {
-    let row = |reference: &Reference| {
-        let row = find(*reference).ok_or_else(|| CallError::error(no_such_variable(*reference)))?;
-        let theirs = element_type_of(row.kind);
-        if theirs == wanted {
-            return Ok(row);
-        }
-        let name = row.name;
-        Err(CallError::error(format!("{name} (value reference {reference}) is {theirs:?}, not {wanted:?}")))
-    };
-    references.iter().map(row).collect()
+    of_type(references, wanted, find, element_type_of)
 }
 
 /// Elements of rows, one after the other.

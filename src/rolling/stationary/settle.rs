@@ -96,7 +96,7 @@ fn lines(model: &RollingModel, load: f64, at_rest: bool, thermal: Vec<Option<The
         worn: 0.0,
         thermal: temperatures.next().flatten(),
     };
-    let mut lines: Vec<_> = (0..model.contact.patch.count()).map(line).collect();
+    let mut lines: Vec<_> = (0..model.contact.patch.count).map(line).collect();
     model.contact.patch.lay_out(load * model.wheel.width, lines::ports(&lines), &mut lines);
     thermal::share_growth(&mut lines);
     lines

@@ -12,7 +12,8 @@ use crate::rolling::state::Motion;
 /// Follows the material of the wheel through the temperature field of the contact.
 #[derive(Clone, Debug)]
 pub struct MaterialHistory {
-    spots: HotSpots,
+    /// Places that were heated in one piece, and the tread.
+    pub spots: HotSpots,
     /// Weights of the heat model's modes at the depths of the spots' mesh.
     weights: Vec<f64>,
     /// Weights at the depths of profiles, of wheel and rail, and these depths [m].
@@ -103,11 +104,6 @@ impl MaterialHistory {
         self.depths.iter().map(at).collect()
     }
 
-    /// Angle of the wheel at which the place touches that became hottest over its depth \[rad]; none without any.
-    pub fn hottest_angle(&self, damage: &Damage) -> Option<f64> {
-        self.spots.hottest_angle(damage)
-    }
-
     /// Excess temperatures at the depths of profiles \[K]: of wheel and rail below the contact point, and of the wheel
     /// below the point of its tread that touches at the angle `point` of a wheel which is at `angle` now \[rad]. If that
     /// point lies on a place that is followed because the contact has heated it, they are those of that place.
@@ -127,11 +123,6 @@ impl MaterialHistory {
         let tread = self.spots.column(damage, point).map(of_place);
         let tread = tread.unwrap_or_else(|| column(0, self.spots.along_tread(point - angle)));
         [column(0, 0.0), column(1, 0.0), tread]
-    }
-
-    /// Test that a history has the dimensions of this model.
-    pub fn fits(&self, damage: &Damage) -> bool {
-        self.spots.fits(damage)
     }
 }
 

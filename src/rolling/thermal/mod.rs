@@ -349,7 +349,7 @@ impl ThermalModel {
         let deformation = &thermal.deformation;
         let profiles = deformation.membrane_force.iter().chain(&deformation.swelling);
         self.heat.fits(&thermal.fields)
-            && self.history.fits(&thermal.damage)
+            && self.history.spots.fits(&thermal.damage)
             && thermal.surface.iter().all(|surface| surface.len() == PROFILE_POINTS)
             && deformation.acted.iter().flatten().all(|value| value.is_finite())
             && profiles.clone().all(|profile| profile.check().is_ok())

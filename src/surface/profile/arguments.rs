@@ -3,6 +3,7 @@
 use super::error::ProfileError;
 use super::text::{ArgumentValue, FeatureCall};
 use crate::config::{display_number, display_outside, display_range, nearest};
+use std::fmt::Display;
 
 /// Arguments between the brackets of a feature. Every parameter is taken once; an argument that is left at the end is
 /// unknown.
@@ -19,7 +20,7 @@ impl FeatureArguments {
         for (name, value) in call.given {
             let name = name.unwrap_or_else(|| first.to_owned());
             if given.iter().any(|(other, _)| *other == name) {
-                return Err(ProfileError::Twice { feature, name });
+                return Err(ProfileError::new(format!("{feature} is given {name} twice; leave one out")));
             }
             given.push((name, value));
         }
@@ -39,20 +40,20 @@ impl FeatureArguments {
     }
 
     /// Error of a value that is not allowed.
-    pub fn outside(&self, name: &'static str, value: impl ToString, range: impl ToString) -> ProfileError {
-        ProfileError::Range { feature: self.feature, name, value: value.to_string(), range: range.to_string() }
+    pub fn outside(&self, name: &str, value: impl Display, range: impl Display) -> ProfileError {
+        ProfileError::new(format!("{name} = {value} of {} is outside its range: {range}", self.feature))
     }
 
     /// Error of a parameter that is needed and not given.
-    pub fn missing(&self, name: &'static str, range: impl ToString) -> ProfileError {
+    pub fn missing(&self, name: &str, range: impl Display) -> ProfileError {
         let given: Vec<_> = self.given.iter().map(|(name, _)| name.as_str()).collect();
         let given = if given.is_empty() { String::new() } else { format!("; beside it stands {}", given.join(", ")) };
-        ProfileError::Missing { feature: self.feature, name, range: range.to_string() + &given }
+        ProfileError::new(format!("{} needs {name}: {range}{given}", self.feature))
     }
 
     /// Error of a feature on the wrong body.
-    pub fn owner(&self, owner: &'static str, body: &'static str, instead: &'static str) -> ProfileError {
-        ProfileError::Owner { feature: self.feature, owner, body, instead }
+    pub fn owner(&self, owner: &str, body: &str, instead: &str) -> ProfileError {
+        ProfileError::new(format!("{} is a feature of the {owner} only; on the {body} use {instead}", self.feature))
     }
 
     /// A number from `range[0]` to `range[1]`, if it is given.
@@ -130,7 +131,7 @@ impl FeatureArguments {
             None => Ok(()),
             Some((name, _)) => {
                 let nearest = nearest(&name, self.known.iter().copied());
-                Err(ProfileError::Parameter { feature: self.feature, name, nearest })
+                Err(ProfileError::new(format!("{} has no parameter {name}; nearest: {nearest}", self.feature)))
             }
         }
     }

@@ -70,7 +70,8 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 pub fn build(call: FeatureCall, site: &Site) -> Result<Feature, ProfileError> {
     let Some((name, make)) = CATALOGUE.iter().find(|(name, _)| *name == call.name) else {
         let nearest = nearest(&call.name, names());
-        return Err(ProfileError::Feature { column: call.column, name: call.name, nearest });
+        let problem = format!("feature {} is unknown; nearest: {nearest}", call.name);
+        return Err(ProfileError::at(call.column, problem));
     };
     let mut given = FeatureArguments::new(name, call, "name")?;
     let feature = make(&mut given, site)?;

@@ -28,14 +28,9 @@ impl Defect {
     /// Last position \[m] of samples in the direction of travel, behind which nothing is known of the rail. Samples
     /// that are given a position and begin and end at height zero have none: behind them the smooth rail goes on.
     pub fn end(&self, forward: bool) -> Option<f64> {
-        let (Form::Samples(samples), Repetition { position, every, count, turn: None }) =
-            (&self.form, &self.repetition)
-        else {
-            return None;
-        };
-        let [begin, end] = samples.reach();
-        let whole = *position != 0.0 && [begin, end].iter().all(|&at| samples.height(at) == 0.0);
-        let last = if forward { position + every * (count - 1.0) + end } else { position + begin };
+        let ([begin, end], Form::Samples(samples)) = (self.sample_ends()?, &self.form) else { return None };
+        let whole = self.repetition.position != 0.0 && samples.reach().iter().all(|&at| samples.height(at) == 0.0);
+        let last = if forward { end } else { begin };
         (!whole && last.is_finite()).then_some(last)
     }
 
@@ -70,11 +65,6 @@ impl Defect {
     /// Height at a position \[m].
     pub fn height(&self, position: f64) -> f64 {
         self.form.height(self.local(position))
-    }
-
-    /// Slope at a position.
-    pub fn slope(&self, position: f64) -> f64 {
-        self.form.slope(self.local(position))
     }
 
     /// Overlap of one of the forms with the stretch between two positions \[m].

@@ -29,14 +29,6 @@ impl Feature {
         }
     }
 
-    /// Slope at a position.
-    pub fn slope(&self, position: f64) -> f64 {
-        match self {
-            Self::Undulation(undulation) => undulation.slope(position),
-            Self::Defect(defect) => defect.slope(position),
-        }
-    }
-
     /// Shortest wavelength \[m].
     pub fn wavelength(&self) -> f64 {
         match self {
@@ -45,17 +37,12 @@ impl Feature {
         }
     }
 
-    /// Lowest and highest point \[m].
-    pub fn range(&self) -> [f64; 2] {
+    /// The local feature; `None` for undulations, which may lie under all other features.
+    pub fn local(&self) -> Option<&Defect> {
         match self {
-            Self::Undulation(undulation) => undulation.texture.range(),
-            Self::Defect(defect) => defect.form.range(),
+            Self::Undulation(_) => None,
+            Self::Defect(defect) => Some(defect),
         }
-    }
-
-    /// Distinction of undulations, which may lie under all other features.
-    pub fn is_undulation(&self) -> bool {
-        matches!(self, Self::Undulation(_))
     }
 
     /// Overlap with the stretch between two positions \[m].
@@ -63,57 +50,6 @@ impl Feature {
         match self {
             Self::Undulation(undulation) => undulation.meets(low, high),
             Self::Defect(defect) => defect.meets(low, high),
-        }
-    }
-
-    /// Presence of a jump between two positions \[m].
-    pub fn jumps(&self, low: f64, high: f64) -> bool {
-        match self {
-            Self::Undulation(_) => false,
-            Self::Defect(defect) => defect.jumps(low, high),
-        }
-    }
-
-    /// Last position \[m] of samples in the direction of travel, behind which nothing is known of the rail.
-    pub fn end(&self, forward: bool) -> Option<f64> {
-        match self {
-            Self::Undulation(_) => None,
-            Self::Defect(defect) => defect.end(forward),
-        }
-    }
-
-    /// First and last position \[m] of samples on the rail.
-    pub fn sample_ends(&self) -> Option<[f64; 2]> {
-        match self {
-            Self::Undulation(_) => None,
-            Self::Defect(defect) => defect.sample_ends(),
-        }
-    }
-
-    /// Ends \[m] of a gap in samples, and their usual distance.
-    pub fn gap(&self) -> Option<([f64; 2], f64)> {
-        match self {
-            Self::Undulation(_) => None,
-            Self::Defect(defect) => defect.gap(),
-        }
-    }
-
-    /// Possibility of an overlap with another feature; `false` is certain.
-    pub fn may_overlap(&self, other: &Self) -> bool {
-        match (self.only_stretch(), other.only_stretch()) {
-            (Some([low, high]), _) => other.meets(low, high),
-            (_, Some([low, high])) => self.meets(low, high),
-            _ => true,
-        }
-    }
-
-    /// First and last position of a feature that lies on a single stretch.
-    fn only_stretch(&self) -> Option<[f64; 2]> {
-        match self {
-            Self::Defect(Defect { form, repetition }) if repetition.count == 1.0 => {
-                Some(form.reach().map(|end| repetition.position + end))
-            }
-            _ => None,
         }
     }
 }

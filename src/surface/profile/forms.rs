@@ -72,28 +72,6 @@ impl Form {
         }
     }
 
-    /// Slope at a distance from the middle.
-    pub fn slope(&self, at: f64) -> f64 {
-        let within = |length: f64| 2.0 * at.abs() < length;
-        match self {
-            Self::Plateau { .. } => 0.0,
-            Self::Trough { length, depth } => match within(*length) {
-                true => PI * depth / length * libm::sin(2.0 * PI * at / length),
-                false => 0.0,
-            },
-            Self::Joint { length, dip, .. } => match within(*length) {
-                true => 4.0 * dip / length * (1.0 - 2.0 * at.abs() / length) * at.signum(),
-                false => 0.0,
-            },
-            Self::Chord { half, radius } if at.abs() < half * radius => {
-                let angle = at / radius;
-                libm::cos(*half) * libm::sin(angle) / libm::cos(angle).powi(2)
-            }
-            Self::Chord { .. } => 0.0,
-            Self::Samples(samples) => samples.slope(at),
-        }
-    }
-
     /// First and last distance of the form \[m].
     pub fn reach(&self) -> [f64; 2] {
         match self {
@@ -110,15 +88,6 @@ impl Form {
             Self::Plateau { reach, .. } => Some(*reach),
             Self::Joint { gap, .. } => (*gap > 0.0).then_some([-0.5 * gap, 0.5 * gap]),
             Self::Trough { .. } | Self::Chord { .. } | Self::Samples(_) => None,
-        }
-    }
-
-    /// Lowest and highest point \[m].
-    pub fn range(&self) -> [f64; 2] {
-        match self {
-            Self::Plateau { height, .. } => [height.min(0.0), height.max(0.0)],
-            Self::Samples(samples) => samples.range(),
-            Self::Trough { .. } | Self::Joint { .. } | Self::Chord { .. } => [self.height(0.0), 0.0],
         }
     }
 

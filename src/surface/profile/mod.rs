@@ -31,6 +31,7 @@ pub use error::ProfileError;
 pub use samples::csv;
 
 use crate::piecewise::Piecewise;
+use defect::Defect;
 use features::Feature;
 use samples::HeightSamples;
 use std::path::Path;
@@ -74,18 +75,7 @@ impl Profile {
 
     /// Height of local features alone, without waves and roughness \[m].
     pub fn local_height(&self, position: f64) -> f64 {
-        self.features.iter().filter(|feature| !feature.is_undulation()).map(|feature| feature.height(position)).sum()
-    }
-
-    /// Slope `dh/dx` at a position; jumps have none.
-    pub fn slope(&self, position: f64) -> f64 {
-        self.features.iter().map(|feature| feature.slope(position)).sum()
-    }
-
-    /// Shortest wavelength \[m]; infinite if the surface is smooth. A jump has none of its own: between two of them
-    /// lies half a wave.
-    pub fn shortest_wavelength(&self) -> f64 {
-        self.features.iter().map(Feature::wavelength).fold(f64::INFINITY, f64::min)
+        self.local().map(|defect| defect.height(position)).sum()
     }
 
     /// Shortest wavelength of the features between two positions \[m]; infinite without any.
@@ -96,23 +86,23 @@ impl Profile {
 
     /// Presence of a jump between two positions \[m].
     pub fn jumps_between(&self, low: f64, high: f64) -> bool {
-        self.features.iter().any(|feature| feature.jumps(low, high))
+        self.local().any(|defect| defect.jumps(low, high))
     }
 
     /// Position \[m] at which the first of its files ends, in the direction of travel; `None` if all go on.
     pub fn end(&self, forward: bool) -> Option<f64> {
-        let ends = self.features.iter().filter_map(|feature| feature.end(forward));
+        let ends = self.local().filter_map(|defect| defect.end(forward));
         if forward { ends.reduce(f64::min) } else { ends.reduce(f64::max) }
     }
 
     /// First and last position \[m] of every file on the rail.
     pub fn sample_ends(&self) -> impl Iterator<Item = [f64; 2]> {
-        self.features.iter().filter_map(Feature::sample_ends)
+        self.local().filter_map(Defect::sample_ends)
     }
 
     /// Ends \[m] of the first gap in samples, which are taken to be straight across it, and their usual distance.
     pub fn gap(&self) -> Option<([f64; 2], f64)> {
-        self.features.iter().find_map(Feature::gap)
+        self.local().find_map(Defect::gap)
     }
 
     /// Presence of any feature between two positions \[m].
@@ -120,19 +110,8 @@ impl Profile {
         self.features.iter().any(|feature| feature.meets(low, high))
     }
 
-    /// Bounds of the height \[m]: nothing is lower than the first, nothing higher than the second. Both are reached
-    /// where features do not overlap.
-    pub fn range(&self) -> [f64; 2] {
-        let (undulations, local): (Vec<_>, Vec<_>) = self.features.iter().partition(|feature| feature.is_undulation());
-        let bound = |side: usize, worse: fn(f64, f64) -> f64| {
-            let together = |one: &&Feature| {
-                let met = local.iter().filter(|other| one.may_overlap(other));
-                met.map(|other| worse(other.range()[side], 0.0)).sum::<f64>()
-            };
-            let extreme = local.iter().map(together).fold(0.0, worse);
-            undulations.iter().map(|feature| feature.range()[side]).sum::<f64>() + extreme
-        };
-        [bound(0, f64::min), bound(1, f64::max)]
+    fn local(&self) -> impl Iterator<Item = &Defect> {
+        self.features.iter().filter_map(Feature::local)
     }
 
     /// Absence of any feature.

@@ -131,34 +131,16 @@ pub struct Roughness {
 }
 
 impl Roughness {
-    /// The two samples around a position, their distance \[m] and the share of it that lies before the position.
-    fn around(&self, position: f64) -> ([f64; 2], [f64; 2], f64, f64) {
+    /// Height at a position \[m].
+    pub fn height(&self, position: f64) -> f64 {
         let count = self.table.len();
         let turns = position / self.period;
         let at = (turns - turns.floor()) * count as f64;
         let before = (at as usize).min(count - 1);
-        let after = if before + 1 == count { 0 } else { before + 1 };
-        (self.table[before], self.table[after], self.period / count as f64, at - before as f64)
-    }
-
-    /// Height at a position \[m].
-    pub fn height(&self, position: f64) -> f64 {
-        let ([h0, s0], [h1, s1], d, t) = self.around(position);
+        let ([h0, s0], [h1, s1]) = (self.table[before], self.table[(before + 1) % count]);
+        let (d, t) = (self.period / count as f64, at - before as f64);
         let u = 1.0 - t;
         u * u * (h0 * (1.0 + 2.0 * t) + d * s0 * t) + t * t * (h1 * (1.0 + 2.0 * u) - d * s1 * u)
-    }
-
-    /// Slope at a position.
-    pub fn slope(&self, position: f64) -> f64 {
-        let ([h0, s0], [h1, s1], d, t) = self.around(position);
-        let u = 1.0 - t;
-        6.0 * t * u * (h1 - h0) / d + s0 * u * (1.0 - 3.0 * t) + s1 * t * (1.0 - 3.0 * u)
-    }
-
-    /// Lowest and highest sample \[m].
-    pub fn range(&self) -> [f64; 2] {
-        let heights = || self.table.iter().map(|sample| sample[0]);
-        [heights().fold(0.0, f64::min), heights().fold(0.0, f64::max)]
     }
 
     /// Shortest wavelength \[m].

@@ -39,45 +39,39 @@ impl HeightSamples {
 
     /// Reads a file, from the working directory or else from `folder`; `factor` multiplies its heights.
     pub fn read(path: &str, folder: Option<&Path>, factor: f64) -> Result<Self, ProfileError> {
-        let unreadable = |files::Unread { path, reason, tried }| ProfileError::Unreadable { path, reason, tried };
-        let (found, text) = files::read_named(path, folder).map_err(unreadable)?;
+        let (found, text) = files::read_named(path, folder).map_err(ProfileError::new)?;
         Self::from_csv(&text, &found.display().to_string(), factor)
     }
 
     /// Reads the text of a file.
     pub fn from_csv(text: &str, path: &str, factor: f64) -> Result<Self, ProfileError> {
-        let wrong = |line: usize, problem: String| ProfileError::File { path: path.to_owned(), line, problem };
-        let wrong_line = |error: TableError| wrong(error.line, error.problem);
-        let table = Table::read(text).map_err(wrong_line)?;
-        let (names, header) = table.names();
-        let mut columns = [0; 2];
-        for (column, name) in columns.iter_mut().zip(COLUMNS) {
-            let given = names.join(",");
-            let problem = || format!("column {name} is missing; the header must be position,height [m], not {given}");
-            *column = names.iter().position(|found| *found == name).ok_or_else(|| wrong(header, problem()))?;
-        }
+        Self::from_table(text, factor).map_err(|error| ProfileError::new(format!("file {path}, {error}")))
+    }
+
+    fn from_table(text: &str, factor: f64) -> Result<Self, TableError> {
+        let table = Table::read(text)?;
+        let columns = table.columns(COLUMNS, &[])?;
         let mut points = Piecewise::default();
         for row in table.rows() {
-            let row = row.map_err(wrong_line)?;
-            let line = row.line;
-            let number = |k: usize| row.number(columns[k], COLUMNS[k], "m").map_err(wrong_line);
+            let row = row?;
+            let number = |k: usize| row.number(columns[k], COLUMNS[k], "m");
             let (position, height) = (number(0)?, number(1)?);
             if let Some(&before) = points.x.last().filter(|before| **before >= position) {
                 let problem =
                     format!("position = {position} m must be larger than {before} m before it; sort the lines");
-                return Err(wrong(line, problem));
+                return Err(TableError::new(row.line, problem));
             }
             if (factor * height).abs() > HIGHEST {
                 let problem = format!(
                     "height = {height} m times the factor {factor} is outside -{HIGHEST} to {HIGHEST} m; columns are in metres"
                 );
-                return Err(wrong(line, problem));
+                return Err(TableError::new(row.line, problem));
             }
             points.push(position, factor * height);
         }
         match points.x.len() {
-            0 => Err(wrong(1, "no sample follows, at least 2 are needed".to_owned())),
-            1 => Err(wrong(1, "1 sample, at least 2 are needed".to_owned())),
+            0 => Err(TableError::new(1, "no sample follows, at least 2 are needed")),
+            1 => Err(TableError::new(1, "1 sample, at least 2 are needed")),
             _ => Ok(Self { points }),
         }
     }
@@ -106,23 +100,13 @@ impl HeightSamples {
         crate::piecewise::interpolate(&self.points.x, &self.points.value, at)
     }
 
-    /// Slope at a position.
-    pub fn slope(&self, at: f64) -> f64 {
-        let (x, height) = (&self.points.x, &self.points.value);
-        match x.partition_point(|&node| node <= at) {
-            0 => 0.0,
-            next if next == x.len() => 0.0,
-            next => (height[next] - height[next - 1]) / (x[next] - x[next - 1]),
-        }
-    }
-
     /// First and last position \[m].
     pub fn reach(&self) -> [f64; 2] {
         [self.points.x[0], self.points.x[self.points.x.len() - 1]]
     }
 
     /// Lowest and highest sample \[m].
-    pub fn range(&self) -> [f64; 2] {
+    fn range(&self) -> [f64; 2] {
         let heights = || self.points.value.iter().copied();
         [heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max)]
     }

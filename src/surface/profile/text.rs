@@ -1,6 +1,7 @@
 //! The text of a profile: a sum of calls such as `hole(position = 2, length = 5e-3) + file("rail.csv", every = 1)`.
 
 use super::error::ProfileError;
+use std::fmt::Display;
 
 /// Longest text [characters]: longer profiles belong into a file. It bounds the cost of evaluating all features.
 const LONGEST: usize = 20_000;
@@ -117,8 +118,8 @@ fn number_starts(chars: &[char], at: usize) -> bool {
 }
 
 /// Something at index `at` of the text that should not stand there.
-fn unexpected(at: usize, expected: &'static str, found: impl ToString) -> ProfileError {
-    ProfileError::Syntax { column: at + 1, expected, found: found.to_string() }
+fn unexpected(at: usize, expected: &str, found: impl Display) -> ProfileError {
+    ProfileError::syntax(at + 1, expected, found)
 }
 
 /// The pieces of a text, read one after the other.
@@ -152,7 +153,7 @@ impl Reader {
             Some((column, Token::Text(text))) => (column, format!("\"{text}\"")),
             Some((column, Token::Sign(sign))) => (column, sign.to_string()),
         };
-        Err(ProfileError::Syntax { column, expected, found })
+        Err(ProfileError::syntax(column, expected, found))
     }
 
     fn expect(&mut self, sign: char, expected: &'static str) -> Result<(), ProfileError> {

@@ -17,16 +17,8 @@ pub struct Sinusoid {
 }
 
 impl Sinusoid {
-    fn angle(&self, position: f64) -> f64 {
-        TAU * (position / self.wavelength).fract() + self.phase
-    }
-
     fn height(&self, position: f64) -> f64 {
-        self.amplitude * libm::sin(self.angle(position))
-    }
-
-    fn slope(&self, position: f64) -> f64 {
-        TAU * self.amplitude / self.wavelength * libm::cos(self.angle(position))
+        self.amplitude * libm::sin(TAU * (position / self.wavelength).fract() + self.phase)
     }
 }
 
@@ -42,18 +34,16 @@ pub struct Window {
 }
 
 impl Window {
-    /// Weight of the undulation \[1] at a position, and its slope \[1/m]: `3t² − 2t³` within the blends.
-    fn weight(&self, position: f64) -> [f64; 2] {
-        let (after, before) = (position - self.from, self.to - position);
-        if after < 0.0 || before < 0.0 {
-            return [0.0, 0.0];
+    /// Weight of the undulation at a position: `3t² − 2t³` within the blends \[1].
+    fn weight(&self, position: f64) -> f64 {
+        match (position - self.from).min(self.to - position) {
+            way if way < 0.0 => 0.0,
+            way if way >= self.blend => 1.0,
+            way => {
+                let t = way / self.blend;
+                t * t * (3.0 - 2.0 * t)
+            }
         }
-        let (way, sign) = if after < before { (after, 1.0) } else { (before, -1.0) };
-        if way >= self.blend {
-            return [1.0, 0.0];
-        }
-        let t = way / self.blend;
-        [t * t * (3.0 - 2.0 * t), sign * 6.0 * t * (1.0 - t) / self.blend]
     }
 }
 
@@ -78,15 +68,7 @@ pub struct Undulation {
 impl Undulation {
     /// Height at a position \[m].
     pub fn height(&self, position: f64) -> f64 {
-        self.window.weight(position)[0] * self.texture.height(position)
-    }
-
-    /// Slope at a position.
-    pub fn slope(&self, position: f64) -> f64 {
-        match self.window.weight(position) {
-            [weight, 0.0] => weight * self.texture.slope(position),
-            [weight, slope] => weight * self.texture.slope(position) + slope * self.texture.height(position),
-        }
+        self.window.weight(position) * self.texture.height(position)
     }
 
     /// Overlap with the stretch between two positions \[m].
@@ -103,26 +85,11 @@ impl Texture {
         }
     }
 
-    fn slope(&self, position: f64) -> f64 {
-        match self {
-            Self::Sinusoid(wave) => wave.slope(position),
-            Self::Roughness(roughness) => roughness.slope(position),
-        }
-    }
-
     /// Shortest wavelength \[m].
     pub fn wavelength(&self) -> f64 {
         match self {
             Self::Sinusoid(wave) => wave.wavelength,
             Self::Roughness(roughness) => roughness.wavelength(),
-        }
-    }
-
-    /// Lowest and highest point \[m].
-    pub fn range(&self) -> [f64; 2] {
-        match self {
-            Self::Sinusoid(wave) => [-wave.amplitude, wave.amplitude],
-            Self::Roughness(roughness) => roughness.range(),
         }
     }
 }

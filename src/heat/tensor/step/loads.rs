@@ -120,7 +120,9 @@ impl Zone<'_> {
     fn add_conductance(&self, thermal: &Thermal, exchange: &Exchange, out: &mut [[f64; 3]]) -> Result<(), HeatError> {
         for patch in &exchange.patches {
             if patch.low.is_nan() || patch.high.is_nan() || patch.low > patch.high {
-                return Err(HeatError::Patch { low: patch.low, high: patch.high });
+                let Interval { low, high } = patch;
+                let why = format!("contact patch from {low} m to {high} m: its ends must be numbers and ascend");
+                return Err(HeatError::Exchange(why));
             }
             match even_conductance(thermal) {
                 Some(value) => {
@@ -172,7 +174,8 @@ impl Zone<'_> {
         // Edges that coincide with the end of the zone are inside, round-off included.
         let reach = zone * (1.0 + 1e-12);
         if let Some(&x) = interval.iter().find(|x| x.is_nan() || x.abs() > reach) {
-            return Err(HeatError::OutsideZone { name, x, zone });
+            let why = format!("{name} reaches x = {x} m, outside the contact zone of ±{zone} m");
+            return Err(HeatError::Exchange(why));
         }
         let first = x.partition_point(|&x| x <= low).saturating_sub(1);
         for (e, ends) in x.windows(2).enumerate().skip(first) {
@@ -191,7 +194,7 @@ impl Zone<'_> {
 
 /// Refuses a profile that is no function.
 fn check(name: &'static str, profile: &Piecewise) -> Result<(), HeatError> {
-    profile.check().map_err(|why| HeatError::Profile { name, why })
+    profile.check().map_err(|why| HeatError::Exchange(format!("{name}: {why}")))
 }
 
 /// Adds `∫ c (1, ξ, ξ²) ds` over a part of an element by Gauss quadrature (3 points); `c` takes the fraction of the
