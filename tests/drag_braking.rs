@@ -233,7 +233,37 @@ fn a_hot_wheel_grows_with_its_bulk_in_long_steps_and_bears_its_load() {
         o.energy_residual
     );
     assert!(warmer > 400.0 && (growth - 1.0).abs() < 0.01 && most < 1.02e5, "{growth} {most}");
-    assert!(missing.abs() < 1e-5 * power * 2000.0, "{missing}");
+    // Measured: .45 % of what friction has dissipated; 1.8 % while the grown circle had the lever arms of the cold one.
+    assert!(missing.abs() < 0.01 * o.friction_energy, "{missing}");
+}
+
+/// On a wheel that has grown by half a percent, pressure that yielding steel has moved off the middle passes through the
+/// centre, too, and spends nothing on turning it. Measured: 1.0 and .3 % of what friction dissipates are missing; with the arms
+/// of the cold circle 12 % on the line.
+#[test]
+fn pressure_off_the_middle_of_a_hot_yielding_patch_does_not_turn_the_wheel() {
+    let (power, step) = (65e3, 5.0);
+    for name in ["railway", "railway_ellipse"] {
+        let mut config = preset(name, 10);
+        (config.initial.velocity, config.tuning.max_step, config.thermal.wheel_excess) = (SPEED, 500.0, 620.0);
+        let radius = config.wheel.radius;
+        let mut inputs = Inputs::rolling(&config);
+        (inputs.translation, inputs.rotation) = (Translation::Velocity, Rotation::Moment);
+        (inputs.drive.tread_heat, inputs.drive.moment) = (power, -power / (SPEED / radius));
+        let mut simulation = Simulation::new(model(config), &inputs).unwrap();
+        let terms = |o: &Outputs| {
+            let missing =
+                o.hub_work + o.thermal_work - o.stored_energy - o.friction_energy - o.damping_energy - o.plastic_energy;
+            [missing, o.friction_energy]
+        };
+        (0..20).for_each(|_| simulation.advance(&inputs, step).unwrap());
+        let before = terms(simulation.outputs());
+        (0..40).for_each(|_| simulation.advance(&inputs, step).unwrap());
+        let after = terms(simulation.outputs());
+        let [missing, friction] = [0, 1].map(|k| after[k] - before[k]);
+        println!("{name}: {missing:.2} J of {friction:.1} J missing; yielded {}", simulation.outputs().yielded);
+        assert!(simulation.outputs().yielded > 0.5 && missing.abs() < 0.02 * friction);
+    }
 }
 
 /// Steel of 960 K gives way from edge to edge of the patch, so that a change of many nodes at once goes in circles: the

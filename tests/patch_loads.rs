@@ -38,6 +38,37 @@ fn patches_grow_with_the_third_root_from_a_hundredth_to_three_times_the_nominal_
     }
 }
 
+/// On fixed nodes a patch of few nodes is as large as on four times as many: its edges lie between nodes, and the other edge of
+/// a short patch bends the pressure down at each. Measured at the default density from 1 to 300 % of the load: pressure
+/// within 1.3 %, length .6 %, force .016 of friction times load (.022 where a rough rail holds four nodes).
+#[test]
+fn patches_on_fixed_nodes_are_those_of_four_times_as_many_from_a_hundredth_to_three_times_the_nominal_load() {
+    let rough = "roughness(spectrum = EN_ISO_3095)";
+    for (name, profile) in [("railway", ""), ("railway", rough), (PATCHES[0], ""), (PATCHES[0], rough)] {
+        let [coarse, fine] = [20, 80].map(|nodes| {
+            let mut config = preset(name, 20);
+            (config.thermal.enabled, config.physics.yielding) = (false, false);
+            (config.solver.contact, config.rail.profile) = (ContactMethod::Grid, profile.into());
+            config.mesh.grid_elements_per_half_width = nodes;
+            model(config)
+        });
+        for share in [0.01, 0.0125, 0.015, 0.03, 0.1, 0.3, 3.0_f64] {
+            let growth = if name == "railway" { share.sqrt() } else { share.cbrt() };
+            let seen = |model: &std::sync::Arc<wheelrail::simulation::Model>| {
+                let mut inputs = prescribed(model, 20.0, -1e-3 * growth);
+                inputs.drive.load = 1e5 * share;
+                let simulation = Simulation::new(model.clone(), &inputs).unwrap();
+                let o = simulation.outputs();
+                [o.contact_pressure_max, o.contact_half_width, o.contact_force_x / (o.friction * o.contact_force_y)]
+            };
+            let (found, right) = (seen(&coarse), seen(&fine));
+            let errors = [found[0] / right[0] - 1.0, found[1] / right[1] - 1.0, found[2] - right[2]];
+            println!("{name}, {profile:?}, {share}: pressure, length, force {errors:.4?}");
+            assert!(errors[0].abs() < 0.015 && errors[1].abs() < 0.01 && errors[2].abs() < 0.025, "{errors:?}");
+        }
+    }
+}
+
 /// Median and largest change of pressure, sizes, force and approach in one step of 1 ms, from the same state some steps after the
 /// start, under loads 2.5 N apart.
 fn changes_with_the_load(mut config: Config, nominal: f64, steps: usize) -> [[f64; 2]; 5] {

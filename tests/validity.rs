@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use wheelrail::config::{Config, Tuning};
+use wheelrail::config::{Config, ContactMethod, Tuning};
 use wheelrail::simulation::validity::Limit;
 use wheelrail::simulation::{Inputs, Rotation, Simulation};
 
@@ -118,6 +118,39 @@ fn falling_friction_without_memory_is_told_in_steps_in_which_it_has_no_definite_
     assert!(!told(0.0, 5e-6), "friction that falls has a memory by itself");
     assert!(!told(1e-12, 2e-4), "in long steps the rest of the wheel answers");
     assert!(!told(memory, 5e-6), "the memory of the preset is long enough");
+}
+
+/// Errors that the warning of short patches tells are those against four times as many nodes.
+#[test]
+fn short_patches_are_told_with_the_size_of_their_errors() {
+    for (name, shares) in
+        [("railway", [3.5e-3, 4e-3, 5e-3, 6e-3, 8e-3]), ("railway_ellipse", [3e-4, 4e-4, 5e-4, 7e-4, 9e-4])]
+    {
+        for share in shares {
+            let seen = |elements: usize| {
+                let mut config = preset(name, 20);
+                (config.thermal.enabled, config.solver.contact) = (false, ContactMethod::Grid);
+                config.mesh.grid_elements_per_half_width = elements;
+                let model = model(config);
+                let growth = if name == "railway" { f64::sqrt(share) } else { f64::cbrt(share) };
+                let mut inputs = prescribed(&model, 20.0, -1e-3 * growth);
+                inputs.drive.load = 1e5 * share;
+                let simulation = Simulation::new(model, &inputs).unwrap();
+                let o = simulation.outputs();
+                let force = o.contact_force_x / (o.friction * o.contact_force_y);
+                let text = limits(&simulation).contains(&Limit::Patch).then(|| simulation.describe_limit(Limit::Patch));
+                (text, [o.contact_pressure_max, o.contact_half_width, force])
+            };
+            let ((told, found), (_, right)) = (seen(20), seen(80));
+            let told = told.unwrap();
+            let percents: Vec<f64> =
+                told.split(" %").filter_map(|part| part.rsplit(' ').next()?.parse().ok()).collect();
+            let errors =
+                [found[0] / right[0] - 1.0, found[1] / right[1] - 1.0, found[2] - right[2]].map(|e| 1e2 * e.abs());
+            println!("{name}, {share}: pressure, length, force {errors:.2?} %, told {percents:?}");
+            assert!(percents.len() == 2 && errors[0].max(errors[1]) < percents[0] && errors[2] < percents[1], "{told}");
+        }
+    }
 }
 
 /// A limit that is exceeded, and the run that obeys its advice: whether it is left, and the error of a quantity before and

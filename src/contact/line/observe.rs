@@ -11,6 +11,8 @@ use std::ops::Range;
 const PEAK: f64 = 0.9;
 /// Ratio of the two outermost nodal pressures below which the outer node is fading out [1].
 const FADING: f64 = 0.2;
+/// Distance of an edge, over the length of the patch, from which it does not tell on the other one \[1].
+const FAR: f64 = 1e6;
 /// Least distance of the end of a profile from the outermost node of a patch [spacings].
 const MARGIN: f64 = 1e-3;
 
@@ -92,18 +94,26 @@ pub(in crate::contact) fn springing_work(
     overlap.iter().zip(limit).enumerate().map(of_node).sum()
 }
 
-/// Edges of a run of closed nodes below grid scale, from the ratio of its outermost nodal pressures.
+/// Edges of a run of closed nodes below grid scale, from the ratio of its outermost nodal pressures. Where a patch has few
+/// nodes, its other edge bends the pressure down, too: over the root of the distance to that edge it rises as at the edge of
+/// a long patch, for a Hertzian one exactly.
 fn edges(grid: &ContactGrid, normal: impl Fn(usize) -> f64, run: &Range<usize>) -> Interval {
     let (first, last) = (run.start, run.end - 1);
-    let pressure = |i: Option<usize>| i.filter(|i| run.contains(i)).map_or(0.0, |i| normal(i) * grid.share(i));
-    let offset = |nodes: [Option<usize>; 3], edge: usize, outwards: bool| {
-        let [outer, inner, next] = nodes.map(&pressure);
+    let pressure = |i: Option<usize>, opposite: f64| {
+        let rises = |i: usize| normal(i) * grid.share(i) / (grid.x[i] - opposite).abs().sqrt();
+        i.filter(|i| run.contains(i)).map_or(0.0, rises)
+    };
+    let offset = |nodes: [Option<usize>; 3], outwards: bool, opposite: f64| {
+        let edge = if outwards { last } else { first };
+        let [outer, inner, next] = nodes.map(|i| pressure(i, opposite));
         grid.cells_beside(edge, outwards)[0] * continuous_offset(outer, inner, next)
     };
-    Interval {
-        low: grid.x[first] - offset([0, 1, 2].map(|k| first.checked_add(k)), first, false),
-        high: grid.x[last] + offset([0, 1, 2].map(|k| last.checked_sub(k)), last, true),
-    }
+    let between = |far: Interval| Interval {
+        low: grid.x[first] - offset([0, 1, 2].map(|k| first.checked_add(k)), false, far.high),
+        high: grid.x[last] + offset([0, 1, 2].map(|k| last.checked_sub(k)), true, far.low),
+    };
+    let far = FAR * (grid.x[last] - grid.x[first] + grid.spacing);
+    between(between(Interval { low: grid.x[first] - far, high: grid.x[last] + far }))
 }
 
 /// Distance of the contact edge beyond the outermost of three nodes [cells]. As the pressure of that node vanishes, the

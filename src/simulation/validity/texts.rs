@@ -7,6 +7,12 @@ use crate::simulation::Simulation;
 /// Smallest `thermal.smallest_load_ratio` that its range allows \[1].
 const LEAST_RATIO: f64 = 0.05;
 
+/// Errors of pressure or length, and of the friction force over friction times load, of patches of a half-width of `n` cells,
+/// times `n²` \[1]. Measured on lines and ellipses.
+const ERRORS_OF_SHORT_PATCHES: [f64; 2] = [0.08, 0.15];
+/// Half-width that is read off patches of less than one cell \[cells]: up to here they may be of any size.
+const LEAST_CELLS: f64 = 1.1;
+
 impl Simulation {
     /// Message of a limit for the present state, with both numbers and what to change.
     pub fn describe_limit(&self, limit: Limit) -> String {
@@ -61,8 +67,16 @@ fn thermal_load(simulation: &Simulation, value: f64, bound: f64) -> String {
 }
 
 fn patch(value: f64, bound: f64) -> String {
+    let [size, force] = ERRORS_OF_SHORT_PATCHES.map(|error| 1e2 * error / (value * value));
+    let errors = if value > LEAST_CELLS {
+        format!(
+            "pressure and length are inexact by up to {size:.0} %, friction forces by up to {force:.0} % of friction times load"
+        )
+    } else {
+        "pressure, length and friction forces are no more than a hint".into()
+    };
     format!(
-        "half-width of the patch is {value:.2} cells of the contact grid, fewer than {bound:.0}: tractions are inexact; raise \
+        "half-width of the patch is {value:.2} cells of the contact grid, fewer than {bound:.0}: {errors}; raise \
          mesh.grid_elements_per_half_width, or lower model.nominal_load and set drive.load"
     )
 }
