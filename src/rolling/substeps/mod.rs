@@ -23,6 +23,7 @@ mod events;
 mod prediction;
 
 use super::control::{Drive, Inputs};
+use super::decisions::Decisions;
 use super::elevation::HeightCourse;
 use super::error::StepError;
 use super::model::{RollingModel, Workspace};
@@ -34,6 +35,7 @@ use crate::heat::{HeatError, HeatFlows};
 use control::{Control, Verdict};
 use events::{condition, shortened};
 use prediction::{Found, SWING, controlled, may_melt};
+use std::hash::Hasher;
 
 /// Longest communication step \[s].
 pub const LONGEST_STEP: f64 = 3600.0;
@@ -223,6 +225,7 @@ struct Sums {
     /// Mean heat flows of every line [W/m].
     flows: Vec<HeatFlows>,
     pressing: Pressing,
+    decisions: Decisions,
 }
 
 impl Sums {
@@ -246,6 +249,7 @@ impl Sums {
             line.thermal.iter_mut().for_each(|thermal| thermal.flows = flows);
         }
         [state.clock.internal_steps, state.clock.limited_steps, state.clock.iterations] = self.counts;
+        state.clock.decisions = self.decisions.finish();
     }
 }
 
@@ -316,7 +320,8 @@ fn march(
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
         place.meet_stop(from, ramp.h, tuning, tried);
-        let dt = ramp.h / place.pieces as f64;
+        let pieces = place.pieces;
+        let dt = ramp.h / pieces as f64;
         let interim = place.done + 1 < place.pieces;
         let [begin, target] = [place.done, place.done + 1].map(|done| ramp.at(done as f64 / place.pieces as f64));
         let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, interim, last_step };
@@ -348,6 +353,7 @@ fn march(
             place.join(fewest);
         }
         sums.add(next, verdict == Verdict::Limited, dt, ramp.h);
+        sums.decisions.add(model, next, pieces);
         (last_step, begun) = (next.clock.last_step, true);
         std::mem::swap(now, next);
     }

@@ -335,13 +335,11 @@ impl ThermalModel {
         thermal.deformation.average(&before.deformation, share);
     }
 
-    /// Test that two contacts conduct heat in the same elements: between them temperatures have a kink, since upwinded
-    /// weights jump from element to element.
-    pub fn conducts_alike(&self, a: &ContactState, b: &ContactState) -> bool {
-        let element = |edge: f64| self.heat.zone_x().partition_point(|&x| x <= edge);
-        let elements =
-            |of: &ContactState| of.traction.edges.iter().map(|e| [e.low, e.high].map(element)).collect::<Vec<_>>();
-        elements(a) == elements(b)
+    /// Elements in which the edges of the patches of a contact are: where one passes from one to the next the temperatures
+    /// have a kink, since upwinded weights jump from element to element.
+    pub fn elements(&self, contact: &ContactState) -> impl Iterator<Item = usize> {
+        let edges = contact.traction.edges.iter().flat_map(|edge| [edge.low, edge.high]);
+        edges.map(|edge| self.heat.zone_x().partition_point(|&x| x <= edge))
     }
 
     /// Test that temperatures have the dimensions of this model.
