@@ -10,7 +10,7 @@ use super::line::Line;
 use super::model::RollingModel;
 use super::state::State;
 use crate::material::Isotropic;
-use crate::piecewise::Piecewise;
+use crate::piecewise::weighted_mean;
 use crate::surface::{WearIncrement, WearLaw};
 
 /// Smoothing length of a step, in cells, below which nothing is smoothed \[1].
@@ -68,7 +68,7 @@ fn wear_line(model: &RollingModel, way: &Way, passing: &Passing, next: &mut Line
     let smoothing = if smoothing > SHORTEST_SMOOTHING * spacing { smoothing } else { 0.0 };
     let increment =
         |body: usize| WearIncrement { path: [from[body], to[body]], distribution: &distribution, volume, smoothing };
-    let mut work = weighted_mean(&distribution, &traction.pressure) * volume;
+    let mut work = weighted_mean(&distribution, &traction.pressure.x, &traction.pressure.value) * volume;
     next.flattening[0].wear(&increment(0), spacing);
     next.worn += mass;
     if wears_rail {
@@ -84,15 +84,4 @@ fn wear_line(model: &RollingModel, way: &Way, passing: &Passing, next: &mut Line
 /// pass the filter `1/(1 + (k ℓ)²)` the stiffest, kℓ = 1. It vanishes with the step.
 fn smoothing_length(model: &RollingModel, wear: f64) -> f64 {
     Isotropic::from(&model.config.material).contact_modulus() * wear
-}
-
-/// Mean of a function weighted with another one, which is not negative and not zero everywhere.
-fn weighted_mean(weight: &Piecewise, function: &Piecewise) -> f64 {
-    let (mut sum, mut total) = (0.0, 0.0);
-    for (x, value) in weight.x.windows(2).zip(weight.value.windows(2)) {
-        let mid = 0.5 * (x[0] + x[1]);
-        let part = (x[1] - x[0]) * 0.5 * (value[0] + value[1]);
-        (sum, total) = (sum + part * function.at(mid), total + part);
-    }
-    if total > 0.0 { sum / total } else { 0.0 }
 }
