@@ -7,6 +7,7 @@
 //! about 0.01 μP whenever the edge passes a node.
 
 use super::state::{NodeStatus, for_each_patch};
+use crate::piecewise::smooth_step;
 
 /// Ratio of edge to inner nodal pressure, limited to the range of the discrete edge solution.
 fn edge_ratio(edge: f64, inner: f64) -> f64 {
@@ -103,8 +104,8 @@ impl UpwindRows {
     }
 
     /// Takes those of the present states and pressures: as at the beginning where no weight is farther from that than the
-    /// `tolerance`, those of the iterate where one is twice as far, and between them without a jump. Returns the largest
-    /// change of a weight.
+    /// `tolerance`, those of the iterate where one is twice as far, and between them without a jump or a kink. Returns the
+    /// largest change of a weight.
     pub fn update(
         &mut self,
         status: &[NodeStatus],
@@ -114,7 +115,7 @@ impl UpwindRows {
     ) -> f64 {
         std::mem::swap(&mut self.rows, &mut self.before);
         upwind_rows(status, pressure, to_right, &mut self.rows);
-        let share = (largest_change(&self.rows, &self.first) / tolerance - 1.0).clamp(0.0, 1.0);
+        let share = smooth_step(largest_change(&self.rows, &self.first) / tolerance - 1.0);
         for (row, first) in self.rows.iter_mut().zip(&self.first).filter(|_| share < 1.0) {
             let w1 = first.w1 + share * (row.w1 - first.w1);
             *row = UpwindWeights { w0: 1.0 - w1, w1 };
