@@ -116,7 +116,9 @@ pub fn difference(
         let mut ends = [-1.0, 1.0].map(|sign| {
             let end = repeat(model, tuning, origin, &direction.away(inputs, sign * width), workspace);
             beyond_range |= matches!(end, Err(StepError::Input(_)));
-            end.ok().filter(|end| end.clock.decisions == state.clock.decisions).map(|end| Box::new(observe_all(model, &end)))
+            end.ok()
+                .filter(|end| end.clock.decisions == state.clock.decisions)
+                .map(|end| Box::new(observe_all(model, &end)))
         });
         match (ends[0].take(), ends[1].take()) {
             (Some(low), Some(high)) => return Ok(Difference { low, high, width: 2.0 * width }),

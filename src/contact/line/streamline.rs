@@ -9,9 +9,19 @@
 use super::state::{NodeStatus, for_each_patch};
 use crate::piecewise::smooth_step;
 
+/// Largest ratio of edge to inner nodal pressure in the discrete edge solution, at which the next node closes, and the distance
+/// from it from which on ratios approach it without a kink: iterates and rough surfaces have larger ones.
+const LARGEST_RATIO: f64 = 2.0 / 3.0;
+const APPROACH: f64 = 0.05;
+
 /// Ratio of edge to inner nodal pressure, limited to the range of the discrete edge solution.
 fn edge_ratio(edge: f64, inner: f64) -> f64 {
-    if inner > 0.0 { (edge / inner).clamp(0.0, 2.0 / 3.0) } else { 2.0 / 3.0 }
+    if inner <= 0.0 || edge >= LARGEST_RATIO * inner {
+        return LARGEST_RATIO;
+    }
+    let (ratio, from) = ((edge / inner).max(0.0), LARGEST_RATIO - APPROACH);
+    let t = ((ratio - from) / APPROACH).max(0.0);
+    ratio + APPROACH * t * t * (1.0 - t)
 }
 
 /// Distance of the contact edge beyond its outermost node, in cells: `2z − ¼` with `z = r/(2 − r)`.

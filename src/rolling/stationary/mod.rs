@@ -57,12 +57,7 @@ pub fn start(
 }
 
 /// Stationary state of a goal, with contact and temperatures that belong to each other.
-fn settled(
-    model: &RollingModel,
-    tuning: &Tuning,
-    goal: &Goal,
-    workspace: &mut Workspace,
-) -> Result<State, StepError> {
+fn settled(model: &RollingModel, tuning: &Tuning, goal: &Goal, workspace: &mut Workspace) -> Result<State, StepError> {
     let mut state = settle(model, tuning, goal, Vec::new(), workspace)?;
     let Some(thermal) = &model.thermal else { return Ok(state) };
     let (mut change, mut averaged) = (f64::INFINITY, 0);
