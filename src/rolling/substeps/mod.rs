@@ -320,8 +320,7 @@ fn march(
     while place.done < place.pieces {
         let from: &State = if begun { now } else { state };
         place.meet_stop(from, ramp.h, tuning, tried);
-        let pieces = place.pieces;
-        let dt = ramp.h / pieces as f64;
+        let dt = ramp.h / place.pieces as f64;
         let interim = place.done + 1 < place.pieces;
         let [begin, target] = [place.done, place.done + 1].map(|done| ramp.at(done as f64 / place.pieces as f64));
         let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, interim, last_step };
@@ -345,6 +344,7 @@ fn march(
         found.check(model)?;
         remember(model, from, &demand, dt, workspace, next);
         control.memory.before = controlled(model, from);
+        sums.decisions.add(model, next, place.pieces);
         (place.done, failures) = (place.done + 1, 0);
         if place.done < place.pieces && ramp.stop.is_some_and(|stop| stop(next)) {
             return Ok(place.done as f64 / place.pieces as f64);
@@ -353,7 +353,6 @@ fn march(
             place.join(fewest);
         }
         sums.add(next, verdict == Verdict::Limited, dt, ramp.h);
-        sums.decisions.add(model, next, pieces);
         (last_step, begun) = (next.clock.last_step, true);
         std::mem::swap(now, next);
     }
