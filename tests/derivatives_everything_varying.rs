@@ -52,8 +52,11 @@ fn vary(inputs: &mut Inputs, start: &Inputs, radius: f64, t: f64) {
     drive.slope = 1e-3 * (150.0 * t).sin();
 }
 
+/// Name of an output, its usual size, and where its value is.
+type Named = (&'static str, f64, fn(&Outputs) -> f64);
+
 /// Outputs by name, with their usual sizes.
-fn outputs() -> Vec<(&'static str, f64, fn(&Outputs) -> f64)> {
+fn outputs() -> Vec<Named> {
     let row = |name: &&'static str| {
         let row = Outputs::ROWS.into_iter().find(|row| row.name == *name).unwrap();
         let Read::Real(read) = row.read else { panic!("{name}") };
