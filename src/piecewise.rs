@@ -280,20 +280,34 @@ pub fn smear(x: &[f64], values: &mut [f64], reach: f64) {
     values.copy_from_slice(&means);
 }
 
-/// Mean of the function with `values` at `x`, weighted with another one at the nodes of the latter (trapezoidal rule);
-/// zero for a weight without integral and for a function without nodes.
+/// Mean of the function through `values` at `x`, constant outside the ends, weighted with `weight`: the integrals of both and
+/// of their product are exact, so that it has no kinks where nodes of the one pass those of the other. Zero without weight.
 pub fn weighted_mean(weight: &Piecewise, x: &[f64], values: &[f64]) -> f64 {
     if values.is_empty() {
         return 0.0;
     }
-    let (mut sum, mut total, mut value) = (0.0, 0.0, ascending(x, values));
-    for (i, &at) in weight.x.iter().enumerate() {
-        let (before, after) = (weight.x[i.saturating_sub(1)], weight.x[(i + 1).min(weight.x.len() - 1)]);
-        let share = 0.5 * (after - before) * weight.value[i];
-        total += share;
-        sum += share * value(at);
+    let (mut sum, mut total, mut next) = (0.0, 0.0, 0);
+    for ([from, to], [w, w_end]) in weight.segments().filter(|(ends, _)| ends[1] > ends[0]) {
+        total += 0.5 * (to - from) * (w + w_end);
+        let slope = (w_end - w) / (to - from);
+        next += x[next..].iter().take_while(|&&node| node <= from).count();
+        let mut begin = [from, w, between(x, values, from, next)];
+        while begin[0] < to {
+            let at = x.get(next).map_or(to, |node| node.min(to));
+            let end = [at, w + slope * (at - from), between(x, values, at, next)];
+            let ([a, wa, va], [b, wb, vb]) = (begin, end);
+            sum += (b - a) / 6.0 * (wa * (2.0 * va + vb) + wb * (va + 2.0 * vb));
+            begin = end;
+            next += usize::from(x.get(next).is_some_and(|node| *node <= at));
+        }
     }
     if total > 0.0 { sum / total } else { 0.0 }
+}
+
+/// Share that rises from 0 to 1 with `t` from 0 to 1, without a kink, and is constant beyond.
+pub fn smooth_step(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
 }
 
 /// Maximum of a piecewise parabola through the values, whose curvature in a cell is the smaller one of those at both
@@ -406,6 +420,23 @@ mod tests {
         assert_eq!((f.x[0], f.x[200], f.x.len()), (-1.0, 1.0, 201));
         assert!(f.x[1] - f.x[0] < 0.02 * (f.x[101] - f.x[100]));
         assert!((f.integral() / (0.5 * PI) - 1.0).abs() < 1e-4, "{}", f.integral());
+    }
+
+    /// Closed forms of a line, of a function that bends within a piece of the weight and is constant beyond its ends, and of a
+    /// weight that jumps.
+    #[test]
+    fn weighted_means_are_exact_and_have_no_kink_where_nodes_pass_each_other() {
+        let hat = Piecewise { x: vec![-1.0, 0.0, 1.0], value: vec![0.0, 1.0, 0.0] };
+        assert!((weighted_mean(&hat, &[-5.0, 5.0], &[-3.0, 7.0]) - 2.0).abs() < 1e-14);
+        let edge = |at: f64| weighted_mean(&hat, &[at, at + 1.0], &[0.0, 1.0]);
+        // Beyond 0 the hat has the weight ½ and the mean x of ⅓.
+        assert!((edge(0.0) - 1.0 / 6.0).abs() < 1e-15);
+        assert!((weighted_mean(&hat, &[0.25], &[4.0]) - 4.0).abs() < 1e-15);
+        let slope = |from: f64, to: f64| (edge(to) - edge(from)) / (to - from);
+        assert!((slope(-1e-5, 0.0) - slope(0.0, 1e-5)).abs() < 1e-4);
+        let jump = Piecewise { x: vec![0.0, 1.0, 1.0, 2.0], value: vec![1.0, 1.0, 3.0, 3.0] };
+        assert!((weighted_mean(&jump, &[0.0, 2.0], &[0.0, 2.0]) - 1.25).abs() < 1e-15);
+        assert_eq!(weighted_mean(&hat, &[], &[]), 0.0);
     }
 
     #[test]

@@ -11,6 +11,7 @@ use super::traction::Traction;
 use crate::linalg::DenseSystem;
 use crate::piecewise::Piecewise;
 use serde::{Deserialize, Serialize};
+use std::hash::Hasher;
 
 /// Finds the contact forces of one step, or of a stationary state.
 ///
@@ -39,11 +40,9 @@ pub trait ContactSolver: Send + Sync {
     /// True if a state has the dimensions of this solver.
     fn fits(&self, state: &ContactState) -> bool;
 
-    /// True if two states were found with the same decisions between open, stick and slip everywhere: along such states
-    /// the solution is a smooth function of the data.
-    fn same_branch(&self, a: &ContactState, b: &ContactState) -> bool {
-        a.solver == b.solver
-    }
+    /// Writes the decisions between open, stick and slip with which a state was found: along states with the same ones the
+    /// solution is a smooth function of the data.
+    fn decisions(&self, _state: &ContactState, _into: &mut dyn Hasher) {}
 
     /// The lines of a contact on other nodes, on which [`Self::solve`] may find it where it has not on theirs; all are
     /// on the same ones. `None` if there are no others.
@@ -64,7 +63,7 @@ pub trait ContactSolver: Send + Sync {
 }
 
 /// Surface points through which the bodies and the contact of a state see each other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Ports {
     /// Nodes of the zone of ordinary patches.
     #[default]

@@ -20,7 +20,7 @@ use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
 use crate::mechanics::response::FreeResponse;
 use crate::multistep::TimeDerivative;
-use crate::piecewise;
+use crate::piecewise::{self, smooth_step};
 use crate::surface::{Placement, Surfaces};
 use std::cell::Cell;
 
@@ -347,9 +347,9 @@ fn missed(load: f64, next: f64) -> f64 {
 }
 
 /// Load for which lines are laid out that carry `next` in the layout of the load `first`: the latter within [`SAME_LOAD`],
-/// the former from twice as much on, and between them without a jump.
+/// the former from twice as much on, and between them without a jump or a kink.
 fn followed(first: f64, next: f64) -> f64 {
-    first + (missed(first, next) / SAME_LOAD - 1.0).clamp(0.0, 1.0) * (next - first)
+    first + smooth_step(missed(first, next) / SAME_LOAD - 1.0) * (next - first)
 }
 
 /// Linear answer of the bodies under a line.

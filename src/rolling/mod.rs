@@ -12,7 +12,7 @@
 //! | [`flattening`], [`wear`], `spreading` | what yielding, friction and conduction across the width change in a step |
 //! | [`nodes`] | nodes on which the contact is looked for |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
-//! | [`stationary`], [`substeps`], [`audit`] | start state; division of communication steps; energy balance |
+//! | [`stationary`], [`substeps`], `decisions`, [`audit`] | start state; division of communication steps, and by which decisions; energy balance |
 //! | [`output_rows`], `output_table`, [`outputs`], `across`, [`profile`], [`suggested_step`], [`fields`], [`sensitivity`] | what one can ask of a state |
 
 mod across;
@@ -22,6 +22,7 @@ pub mod brake;
 pub mod contact_model;
 pub mod control;
 pub mod creepages;
+mod decisions;
 pub mod direction;
 pub mod elevation;
 pub mod error;

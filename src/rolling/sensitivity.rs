@@ -11,14 +11,12 @@
 use super::control::{Drive, Inputs};
 use super::direction::Direction;
 use super::error::StepError;
-use super::line::Line;
 use super::model::{RollingModel, Workspace};
 use super::output_rows::Outputs;
 use super::outputs::observe_all;
 use super::state::State;
 use super::{stationary, substeps};
 use crate::config::Tuning;
-use crate::contact::ContactState;
 use serde::{Deserialize, Serialize};
 
 /// Origin of a state.
@@ -118,7 +116,9 @@ pub fn difference(
         let mut ends = [-1.0, 1.0].map(|sign| {
             let end = repeat(model, tuning, origin, &direction.away(inputs, sign * width), workspace);
             beyond_range |= matches!(end, Err(StepError::Input(_)));
-            end.ok().filter(|end| same_branch(model, end, state)).map(|end| Box::new(observe_all(model, &end)))
+            end.ok()
+                .filter(|end| end.clock.decisions == state.clock.decisions)
+                .map(|end| Box::new(observe_all(model, &end)))
         });
         match (ends[0].take(), ends[1].take()) {
             (Some(low), Some(high)) => return Ok(Difference { low, high, width: 2.0 * width }),
@@ -150,18 +150,4 @@ fn repeat(
             Ok(end)
         }
     }
-}
-
-/// True if two states were computed by the same sequence of decisions.
-fn same_branch(model: &RollingModel, a: &State, b: &State) -> bool {
-    let thermal =
-        |a: &ContactState, b: &ContactState| model.thermal.as_ref().is_none_or(|heat| heat.conducts_alike(a, b));
-    let same = |(Line { contact: a, .. }, Line { contact: b, .. }): (&Line, &Line)| {
-        model.contact.solver.same_branch(a, b) && thermal(a, b)
-    };
-    a.lines.iter().zip(&b.lines).all(same)
-        && a.hub.brake.locked == b.hub.brake.locked
-        && a.clock.restarted == b.clock.restarted
-        && a.clock.internal_steps == b.clock.internal_steps
-        && a.clock.iterations == b.clock.iterations
 }

@@ -66,6 +66,8 @@ pub struct Clock {
     pub limited_steps: u64,
     /// Contact iterations of the last communication step.
     pub iterations: u64,
+    /// Fingerprint of the decisions of the last communication step.
+    pub decisions: u64,
 }
 
 /// Forces on the hub in a step: generalised ones, in x, in y and the forward moment [N/m, N/m, N].

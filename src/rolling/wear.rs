@@ -68,8 +68,7 @@ fn wear_line(model: &RollingModel, way: &Way, passing: &Passing, next: &mut Line
     let smoothing = if smoothing > SHORTEST_SMOOTHING * spacing { smoothing } else { 0.0 };
     let increment =
         |body: usize| WearIncrement { path: [from[body], to[body]], distribution: &distribution, volume, smoothing };
-    let pressure = &traction.pressure;
-    let mut work = weighted_mean(&distribution, &pressure.x, &pressure.value) * volume;
+    let mut work = weighted_mean(&distribution, &traction.pressure.x, &traction.pressure.value) * volume;
     next.flattening[0].wear(&increment(0), spacing);
     next.worn += mass;
     if wears_rail {

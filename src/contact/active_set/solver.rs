@@ -13,6 +13,7 @@ use crate::contact::traction::Traction;
 use crate::multistep::History;
 use crate::piecewise::Piecewise;
 use nalgebra::DVector;
+use std::hash::{Hash, Hasher};
 
 /// Contact solver on the paired nodes of a line.
 #[derive(Clone, Debug)]
@@ -110,9 +111,11 @@ impl ContactSolver for ActiveSetSolver {
             && traction.port_forces.iter().all(|f| f.is_finite())
     }
 
-    fn same_branch(&self, a: &ContactState, b: &ContactState) -> bool {
-        let states = a.solver.grid().zip(b.solver.grid());
-        states.is_some_and(|(a, b)| a.status == b.status && a.yielded == b.yielded)
+    fn decisions(&self, state: &ContactState, mut into: &mut dyn Hasher) {
+        let Some(state) = state.solver.grid() else { return };
+        for (status, yielded) in state.status.iter().zip(&state.yielded) {
+            (*status as u8 + 4 * u8::from(*yielded)).hash(&mut into);
+        }
     }
 
     fn surface_strain(&self, state: &ContactState) -> [Piecewise; 2] {

@@ -10,6 +10,7 @@ use crate::contact::problem::ContactProblem;
 use crate::contact::series::SeriesSolver;
 use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, Ports};
 use crate::piecewise::Piecewise;
+use std::hash::Hasher;
 
 /// Contact on points that move with the patch where there are any and they describe it, and on fixed nodes elsewhere.
 #[derive(Clone, Debug)]
@@ -121,8 +122,10 @@ impl ContactSolver for NodeChoice {
         self.on(state.ports).is_some_and(|solver| solver.fits(state))
     }
 
-    fn same_branch(&self, a: &ContactState, b: &ContactState) -> bool {
-        a.ports == b.ports && self.on(a.ports).is_some_and(|solver| solver.same_branch(a, b))
+    fn decisions(&self, state: &ContactState, into: &mut dyn Hasher) {
+        if let Some(solver) = self.on(state.ports) {
+            solver.decisions(state, into);
+        }
     }
 
     fn on_other_nodes(&self, lines: &[&ContactState]) -> Option<Vec<ContactState>> {

@@ -4,7 +4,7 @@ use crate::multistep::History;
 use serde::{Deserialize, Serialize};
 
 /// State of one pair of contact nodes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum NodeStatus {
     /// No contact.
     Open,

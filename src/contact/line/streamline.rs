@@ -7,10 +7,21 @@
 //! about 0.01 μP whenever the edge passes a node.
 
 use super::state::{NodeStatus, for_each_patch};
+use crate::piecewise::smooth_step;
+
+/// Largest ratio of edge to inner nodal pressure in the discrete edge solution, at which the next node closes, and the distance
+/// from it from which on ratios approach it without a kink: iterates and rough surfaces have larger ones.
+const LARGEST_RATIO: f64 = 2.0 / 3.0;
+const APPROACH: f64 = 0.05;
 
 /// Ratio of edge to inner nodal pressure, limited to the range of the discrete edge solution.
 fn edge_ratio(edge: f64, inner: f64) -> f64 {
-    if inner > 0.0 { (edge / inner).clamp(0.0, 2.0 / 3.0) } else { 2.0 / 3.0 }
+    if inner <= 0.0 || edge >= LARGEST_RATIO * inner {
+        return LARGEST_RATIO;
+    }
+    let (ratio, from) = ((edge / inner).max(0.0), LARGEST_RATIO - APPROACH);
+    let t = ((ratio - from) / APPROACH).max(0.0);
+    ratio + APPROACH * t * t * (1.0 - t)
 }
 
 /// Distance of the contact edge beyond its outermost node, in cells: `2z − ¼` with `z = r/(2 − r)`.
@@ -103,8 +114,8 @@ impl UpwindRows {
     }
 
     /// Takes those of the present states and pressures: as at the beginning where no weight is farther from that than the
-    /// `tolerance`, those of the iterate where one is twice as far, and between them without a jump. Returns the largest
-    /// change of a weight.
+    /// `tolerance`, those of the iterate where one is twice as far, and between them without a jump or a kink. Returns the
+    /// largest change of a weight.
     pub fn update(
         &mut self,
         status: &[NodeStatus],
@@ -114,7 +125,7 @@ impl UpwindRows {
     ) -> f64 {
         std::mem::swap(&mut self.rows, &mut self.before);
         upwind_rows(status, pressure, to_right, &mut self.rows);
-        let share = (largest_change(&self.rows, &self.first) / tolerance - 1.0).clamp(0.0, 1.0);
+        let share = smooth_step(largest_change(&self.rows, &self.first) / tolerance - 1.0);
         for (row, first) in self.rows.iter_mut().zip(&self.first).filter(|_| share < 1.0) {
             let w1 = first.w1 + share * (row.w1 - first.w1);
             *row = UpwindWeights { w0: 1.0 - w1, w1 };

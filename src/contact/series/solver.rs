@@ -17,6 +17,7 @@ use crate::contact::traction::Traction;
 use crate::linalg::{Lagrange, POINTS};
 use crate::piecewise::Interval;
 use nalgebra::DVector;
+use std::hash::{Hash, Hasher};
 
 /// Shortest way of the material in a step, over the half-width of the patch \[1]: below, the series do not resolve what
 /// is carried through it. Where all slips nothing is.
@@ -215,8 +216,7 @@ impl ContactSolver for SeriesSolver {
             && traction.port_forces.iter().all(|f| f.is_finite())
     }
 
-    fn same_branch(&self, a: &ContactState, b: &ContactState) -> bool {
-        let states = a.solver.series().zip(b.solver.series());
-        states.is_some_and(|(a, b)| a.tractions.same_branch(&b.tractions))
+    fn decisions(&self, state: &ContactState, mut into: &mut dyn Hasher) {
+        state.solver.series().map(|series| series.tractions.branch()).hash(&mut into);
     }
 }

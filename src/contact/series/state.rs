@@ -228,9 +228,12 @@ impl Tractions {
 
     /// True if slip and stick are the same but for their lengths.
     pub fn same_branch(&self, other: &Self) -> bool {
-        self.slides() == other.slides()
-            && (self.slide < 0.0) == (other.slide < 0.0)
-            && self.directions == other.directions
+        self.branch() == other.branch()
+    }
+
+    /// Slip and stick but for their lengths.
+    pub fn branch(&self) -> (bool, bool, Option<Directions>) {
+        (self.slides(), self.slide < 0.0, self.directions)
     }
 
     /// True if all of the patch slips.

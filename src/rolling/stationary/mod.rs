@@ -9,6 +9,7 @@ mod goal;
 mod settle;
 
 use super::control::Inputs;
+use super::decisions::Decisions;
 use super::error::StepError;
 use super::model::{RollingModel, Workspace};
 use super::state::State;
@@ -17,6 +18,7 @@ use crate::axes::Axis;
 use crate::config::{StartTemperature, Tuning};
 use goal::Goal;
 use settle::{scale, settle};
+use std::hash::Hasher;
 
 /// Passes of temperatures and contact.
 const MAX_PASSES: usize = 30;
@@ -47,7 +49,16 @@ pub fn start(
     inputs.validate()?;
     model.wheel.sideways.check(inputs)?;
     let goal = Goal::new(model, inputs)?;
-    let mut state = settle(model, tuning, &goal, Vec::new(), workspace)?;
+    let mut state = settled(model, tuning, &goal, workspace)?;
+    let mut decisions = Decisions::default();
+    decisions.add_contact(model, &state);
+    state.clock.decisions = decisions.finish();
+    Ok(state)
+}
+
+/// Stationary state of a goal, with contact and temperatures that belong to each other.
+fn settled(model: &RollingModel, tuning: &Tuning, goal: &Goal, workspace: &mut Workspace) -> Result<State, StepError> {
+    let mut state = settle(model, tuning, goal, Vec::new(), workspace)?;
     let Some(thermal) = &model.thermal else { return Ok(state) };
     let (mut change, mut averaged) = (f64::INFINITY, 0);
     for pass in 0..MAX_PASSES {
@@ -67,7 +78,7 @@ pub fn start(
             Ok(Some(temperatures))
         });
         let temperatures = lines.collect::<Result<Vec<_>, StepError>>()?;
-        let settled = settle(model, tuning, &goal, temperatures, workspace)?;
+        let settled = settle(model, tuning, goal, temperatures, workspace)?;
         let before = std::mem::replace(&mut change, difference(model, &state, &settled));
         state = settled;
         if averaged > 0 || pass + 1 >= PLAIN_PASSES && change > CONTRACTION * before {

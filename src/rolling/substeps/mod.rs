@@ -23,6 +23,7 @@ mod events;
 mod prediction;
 
 use super::control::{Drive, Inputs};
+use super::decisions::Decisions;
 use super::elevation::HeightCourse;
 use super::error::StepError;
 use super::model::{RollingModel, Workspace};
@@ -34,6 +35,7 @@ use crate::heat::{HeatError, HeatFlows};
 use control::{Control, Verdict};
 use events::{condition, shortened};
 use prediction::{Found, SWING, controlled, may_melt};
+use std::hash::Hasher;
 
 /// Longest communication step \[s].
 pub const LONGEST_STEP: f64 = 3600.0;
@@ -223,6 +225,7 @@ struct Sums {
     /// Mean heat flows of every line [W/m].
     flows: Vec<HeatFlows>,
     pressing: Pressing,
+    decisions: Decisions,
 }
 
 impl Sums {
@@ -246,6 +249,7 @@ impl Sums {
             line.thermal.iter_mut().for_each(|thermal| thermal.flows = flows);
         }
         [state.clock.internal_steps, state.clock.limited_steps, state.clock.iterations] = self.counts;
+        state.clock.decisions = self.decisions.finish();
     }
 }
 
@@ -340,6 +344,7 @@ fn march(
         found.check(model)?;
         remember(model, from, &demand, dt, workspace, next);
         control.memory.before = controlled(model, from);
+        sums.decisions.add(model, next, place.pieces);
         (place.done, failures) = (place.done + 1, 0);
         if place.done < place.pieces && ramp.stop.is_some_and(|stop| stop(next)) {
             return Ok(place.done as f64 / place.pieces as f64);

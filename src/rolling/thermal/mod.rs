@@ -49,9 +49,10 @@ const OVERHEATING: f64 = 50.0;
 /// proportional to the expansion. It flips beyond `3.5/(2.5 + 7 h/ms)`.
 const DAMPED: f64 = 3.9e-9;
 
-/// Excess temperature of the hotter surface up to which the depth of the heat does not smooth its swelling \[K].
-/// Flashes of quiet rolling swell by nanometres, whatever their depth, and it changes with every step.
-const SMOOTHED: f64 = 10.0;
+/// Excess temperature of the hotter surface up to which the depth of the heat does not smooth its swelling, and that from which
+/// on it does so wholly \[K]. Flashes of quiet rolling swell by nanometres, whatever their depth, and it changes with every
+/// step.
+const SMOOTHED: [f64; 2] = [10.0, 20.0];
 
 /// Temperatures of wheel and rail and their coupling with the contact.
 pub struct ThermalModel {
@@ -311,12 +312,13 @@ impl ThermalModel {
         let mean = thermal.friction_excess();
         let friction = contact.traction.friction.coefficient;
         thermal.heating.now = if friction > 0.0 { mean / friction } else { 0.0 };
-        let warm = seen.temperatures.wheel_max.max(seen.temperatures.rail_max) > SMOOTHED;
+        let hottest = seen.temperatures.wheel_max.max(seen.temperatures.rail_max);
+        let warm = piecewise::smooth_step((hottest - SMOOTHED[0]) / (SMOOTHED[1] - SMOOTHED[0]));
         match &self.expansion {
             Some(expansion) => {
                 let layers = seen.layer.iter_mut().zip(seen.layer_depth).zip(smoothing);
-                for ((layer, depth), smoothing) in layers.filter(|_| warm) {
-                    smoothing.apply(zone, layer, depth, self.spacing);
+                for ((layer, depth), smoothing) in layers.filter(|_| warm > 0.0) {
+                    smoothing.apply(zone, layer, depth, (self.spacing, warm));
                 }
                 expansion.deform(zone, seen, &mut thermal.deformation);
             }
@@ -335,13 +337,11 @@ impl ThermalModel {
         thermal.deformation.average(&before.deformation, share);
     }
 
-    /// Test that two contacts conduct heat in the same elements: between them temperatures have a kink, since upwinded
-    /// weights jump from element to element.
-    pub fn conducts_alike(&self, a: &ContactState, b: &ContactState) -> bool {
-        let element = |edge: f64| self.heat.zone_x().partition_point(|&x| x <= edge);
-        let elements =
-            |of: &ContactState| of.traction.edges.iter().map(|e| [e.low, e.high].map(element)).collect::<Vec<_>>();
-        elements(a) == elements(b)
+    /// Elements in which the edges of the patches of a contact are: where one passes from one to the next the temperatures
+    /// have a kink, since upwinded weights jump from element to element.
+    pub fn elements(&self, contact: &ContactState) -> impl Iterator<Item = usize> {
+        let edges = contact.traction.edges.iter().flat_map(|edge| [edge.low, edge.high]);
+        edges.map(|edge| self.heat.zone_x().partition_point(|&x| x <= edge))
     }
 
     /// Test that temperatures have the dimensions of this model.

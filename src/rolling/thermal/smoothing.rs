@@ -6,11 +6,13 @@
 //! of several elements, and hot spots narrower than that do not lift it by their own height.
 
 use crate::lru::Lru;
+use crate::piecewise::smooth_step;
 use std::convert::Infallible;
 use std::f64::consts::PI;
 
-/// Depth from which on it matters, in distances of the surface nodes of the contact [1].
-const NOTICED: f64 = 0.25;
+/// Depth from which on it matters, and that from which on it does so wholly, in distances of the surface nodes of the contact
+/// [1].
+const NOTICED: [f64; 2] = [0.25, 0.5];
 /// Ratio of the depths for which kernels are made \[1]; between them the result is linear in the logarithm of the depth, within
 /// 3e-4 of a wave.
 const STEP: f64 = 1.1;
@@ -28,10 +30,11 @@ pub struct Smoothing {
 }
 
 impl Smoothing {
-    /// Smooths `values` at the positions `x` \[m] for heat at the mean `depth` \[m]; `spacing` \[m] is the distance of
-    /// the contact nodes. Beyond the ends there is nothing.
-    pub fn apply(&mut self, x: &[f64], values: &mut [f64], depth: f64, spacing: f64) {
-        if depth <= NOTICED * spacing || values.len() != x.len() {
+    /// Smooths a `share` of `values` at the positions `x` \[m] for heat at the mean `depth` \[m]; `spacing` \[m] is the distance
+    /// of the contact nodes. Beyond the ends there is nothing.
+    pub fn apply(&mut self, x: &[f64], values: &mut [f64], depth: f64, (spacing, share): (f64, f64)) {
+        let noticed = share * smooth_step((depth / spacing - NOTICED[0]) / (NOTICED[1] - NOTICED[0]));
+        if noticed == 0.0 || values.len() != x.len() {
             return;
         }
         let place = libm::log(depth) / libm::log(STEP);
@@ -48,7 +51,7 @@ impl Smoothing {
         }
         let [shallower, deeper] = smoothed;
         for (value, (shallower, deeper)) in values.iter_mut().zip(shallower.iter().zip(deeper)) {
-            *value = *shallower + share * (*deeper - *shallower);
+            *value += noticed * (*shallower + share * (*deeper - *shallower) - *value);
         }
     }
 }
@@ -117,7 +120,7 @@ mod tests {
         let x: Vec<f64> = (0..=4000).map(|i| 1e-3 * f64::from(i - 2000)).collect();
         for (k, d) in [(40.0, 5e-3), (40.0, 2e-2), (100.0, 1e-2)] {
             let mut values: Vec<f64> = x.iter().map(|x| (k * x).cos()).collect();
-            Smoothing::default().apply(&x, &mut values, d, 1e-3);
+            Smoothing::default().apply(&x, &mut values, d, (1e-3, 1.0));
             let expected = (-k * d).exp();
             println!("k d = {}: {} for {expected}", k * d, values[2000]);
             assert!((values[2000] / expected - 1.0).abs() < 0.02);
@@ -128,7 +131,7 @@ mod tests {
     fn a_thin_flash_is_left_alone_bit_for_bit() {
         let (x, flash) = (vec![0.0, 1.0, 2.0, 4.0], vec![0.0, 3.0, 1.0, 0.0]);
         let mut values = flash.clone();
-        Smoothing::default().apply(&x, &mut values, 0.2, 1.0);
+        Smoothing::default().apply(&x, &mut values, 0.2, (1.0, 1.0));
         assert_eq!(values, flash);
     }
 
@@ -156,7 +159,7 @@ mod tests {
         let hot: Vec<f64> = x.iter().map(|x| 1.0 / (1.0 + x * x)).collect();
         let smoothed = |smoothing: &mut Smoothing, depth: f64| {
             let mut values = hot.clone();
-            smoothing.apply(&x, &mut values, depth, 1.0);
+            smoothing.apply(&x, &mut values, depth, (1.0, 1.0));
             values
         };
         let mut shared = Smoothing::default();
