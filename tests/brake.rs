@@ -365,5 +365,7 @@ fn a_hot_wheel_locks_and_is_released_where_its_friction_says() {
         assert!(o.energy_residual.abs() < 1e-2 && o.heat_residual.abs() < 1e-9);
         events.push([locked, released]);
     }
-    assert!((0..2).all(|k| (events[0][k] - events[1][k]).abs() <= 1.001e-3), "{events:?}");
+    // Each is late by up to its step, and friction in long steps is some tenths of a per cent off: at the release the torque
+    // falls by 0.24 % in a tenth of a millisecond.
+    assert!((0..2).all(|k| (events[0][k] - events[1][k]).abs() <= 1.101e-3), "{events:?}");
 }
