@@ -28,6 +28,10 @@ pub struct Traction {
     /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the
     /// pressures beside them.
     pub edges: Vec<Interval>,
+    /// Edges by the outermost pressures at each end alone, as if the other end were far: between these the bodies conduct
+    /// heat to each other. On fixed nodes edges of short patches lie farther inside, and what is hot on a few nodes would
+    /// get hotter yet.
+    pub conducting: Vec<Interval>,
     /// The contact patches, x ascending \[m]: the stretches over which the profiles below are not zero, and heat
     /// conducts. Each holds everything on which forces act, so that it may reach a little beyond its edges.
     pub patches: Vec<Interval>,

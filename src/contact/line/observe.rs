@@ -33,12 +33,14 @@ pub fn read_off(
     let normal = |i: usize| forces[grid.port(i) + 1];
     traction.pressure_max = pressure_peak(grid, &state.yielded, normal, limit);
     traction.edges.clear();
+    traction.conducting.clear();
     traction.patches.clear();
     let (mut length, mut stuck) = (0.0, 0.0);
     for_each_patch(&state.status, |run| {
-        let edges = edges(grid, normal, &run);
-        traction.edges.push(edges);
-        traction.patches.push(stretch(grid, edges, &run));
+        let apart = edges_apart(grid, normal, &run);
+        traction.edges.push(edges(grid, normal, &run, apart));
+        traction.conducting.push(apart);
+        traction.patches.push(stretch(grid, apart, &run));
         length += run.clone().map(|i| grid.width(i)).sum::<f64>();
         let margin =
             |i: usize| (grid.share(i) * (traction.friction.coefficient * normal(i) - shear(i))).max(0.0).powi(2);
@@ -94,10 +96,18 @@ pub(in crate::contact) fn springing_work(
     overlap.iter().zip(limit).enumerate().map(of_node).sum()
 }
 
-/// Edges of a run of closed nodes below grid scale, from the ratio of its outermost nodal pressures. Where a patch has few
-/// nodes, its other edge bends the pressure down, too: over the root of the distance to that edge it rises as at the edge of
-/// a long patch, for a Hertzian one exactly.
-fn edges(grid: &ContactGrid, normal: impl Fn(usize) -> f64, run: &Range<usize>) -> Interval {
+/// Edges of a run of closed nodes below grid scale, from the ratio of its outermost nodal pressures, as if the other edge were
+/// far away.
+fn edges_apart(grid: &ContactGrid, normal: impl Fn(usize) -> f64, run: &Range<usize>) -> Interval {
+    let (low, high) = (grid.x[run.start], grid.x[run.end - 1]);
+    let far = FAR * (high - low + grid.spacing);
+    edges(grid, normal, run, Interval { low: low - far, high: high + far })
+}
+
+/// Edges of a run of closed nodes, given where each has its other one, `far`. Where a patch has few nodes, its other edge bends
+/// the pressure down, too: over the root of the distance to that edge it rises as at the edge of a long patch, for a
+/// Hertzian one exactly.
+fn edges(grid: &ContactGrid, normal: impl Fn(usize) -> f64, run: &Range<usize>, far: Interval) -> Interval {
     let (first, last) = (run.start, run.end - 1);
     let pressure = |i: Option<usize>, opposite: f64| {
         let rises = |i: usize| normal(i) * grid.share(i) / (grid.x[i] - opposite).abs().sqrt();
@@ -108,12 +118,10 @@ fn edges(grid: &ContactGrid, normal: impl Fn(usize) -> f64, run: &Range<usize>) 
         let [outer, inner, next] = nodes.map(|i| pressure(i, opposite));
         grid.cells_beside(edge, outwards)[0] * continuous_offset(outer, inner, next)
     };
-    let between = |far: Interval| Interval {
+    Interval {
         low: grid.x[first] - offset([0, 1, 2].map(|k| first.checked_add(k)), false, far.high),
         high: grid.x[last] + offset([0, 1, 2].map(|k| last.checked_sub(k)), true, far.low),
-    };
-    let far = FAR * (grid.x[last] - grid.x[first] + grid.spacing);
-    between(between(Interval { low: grid.x[first] - far, high: grid.x[last] + far }))
+    }
 }
 
 /// Distance of the contact edge beyond the outermost of three nodes [cells]. As the pressure of that node vanishes, the

@@ -216,7 +216,7 @@ pub(super) fn finish(
     traction.resultant = line.resultant();
     write_ports(line, traction);
     let [low, high] = line.tractions.pressure.ends();
-    for patches in [&mut traction.edges, &mut traction.patches] {
+    for patches in [&mut traction.edges, &mut traction.conducting, &mut traction.patches] {
         patches.clear();
         if line.load() > 0.0 {
             patches.push(Interval { low, high });

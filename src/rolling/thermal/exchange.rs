@@ -23,7 +23,7 @@ impl ThermalContact<'_> {
     pub(super) fn fill(&self, film: &Piecewise, exchange: &mut Exchange) {
         let contact = self.traction;
         exchange.clear();
-        exchange.patches.extend(&contact.edges);
+        exchange.patches.extend(&contact.conducting);
         copy(&contact.pressure, &mut exchange.pressure);
         if film.is_empty() {
             copy(&contact.friction.dissipation, &mut exchange.friction_power);

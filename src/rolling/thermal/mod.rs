@@ -340,7 +340,7 @@ impl ThermalModel {
     /// Elements in which the edges of the patches of a contact are: where one passes from one to the next the temperatures
     /// have a kink, since upwinded weights jump from element to element.
     pub fn elements(&self, contact: &ContactState) -> impl Iterator<Item = usize> {
-        let edges = contact.traction.edges.iter().flat_map(|edge| [edge.low, edge.high]);
+        let edges = contact.traction.conducting.iter().flat_map(|edge| [edge.low, edge.high]);
         edges.map(|edge| self.heat.zone_x().partition_point(|&x| x <= edge))
     }
 
