@@ -52,7 +52,7 @@ const DAMPED: f64 = 3.9e-9;
 /// Excess temperature of the hotter surface up to which the depth of the heat does not smooth its swelling, and that from which
 /// on it does so wholly \[K]. Flashes of quiet rolling swell by nanometres, whatever their depth, and it changes with every
 /// step.
-const SMOOTHED: [f64; 2] = [5.0, 10.0];
+const SMOOTHED: [f64; 2] = [10.0, 11.0];
 
 /// Temperatures of wheel and rail and their coupling with the contact.
 pub struct ThermalModel {

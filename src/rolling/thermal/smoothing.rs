@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 /// Depth from which on it matters, and that from which on it does so wholly, in distances of the surface nodes of the contact
 /// [1].
-const NOTICED: [f64; 2] = [0.125, 0.25];
+const NOTICED: [f64; 2] = [0.24, 0.25];
 /// Ratio of the depths for which kernels are made \[1]; between them the result is linear in the logarithm of the depth, within
 /// 3e-4 of a wave.
 const STEP: f64 = 1.1;
@@ -131,7 +131,7 @@ mod tests {
     fn a_thin_flash_is_left_alone_bit_for_bit() {
         let (x, flash) = (vec![0.0, 1.0, 2.0, 4.0], vec![0.0, 3.0, 1.0, 0.0]);
         let mut values = flash.clone();
-        Smoothing::default().apply(&x, &mut values, 0.12, (1.0, 1.0));
+        Smoothing::default().apply(&x, &mut values, 0.2, (1.0, 1.0));
         assert_eq!(values, flash);
     }
 
