@@ -32,8 +32,8 @@ pub struct Traction {
     /// heat to each other. On fixed nodes edges of short patches lie farther inside, and what is hot on a few nodes would
     /// get hotter yet.
     pub conducting: Vec<Interval>,
-    /// The contact patches, x ascending \[m]: the stretches over which the profiles below are not zero, and heat
-    /// conducts. Each holds everything on which forces act, so that it may reach a little beyond its edges.
+    /// The contact patches, x ascending \[m]: the stretches over which the profiles below are not zero. Each holds
+    /// everything on which forces act, so that it may reach a little beyond its edges.
     pub patches: Vec<Interval>,
     /// Share of the contact length that sticks \[1].
     pub stick_fraction: f64,

@@ -35,8 +35,8 @@ const BELIEVED: std::ops::Range<f64> = 0.2..5.0;
 /// and shears pressures, one pass behind.
 const BEHIND: f64 = 0.03;
 
-/// Largest relative error that a solution on arches leaves, that of one with two directions, and the largest change that ends other searches \[1]: friction forces
-/// are off by about twice as much. In equilibria, which others improve from solution to solution, it is smaller.
+/// Largest relative error that a solution with one direction leaves, and that of one with two \[1]: friction forces are off by
+/// about twice as much. In equilibria, which others improve from solution to solution, it is smaller.
 const LEFT_OVER: f64 = 1e-10;
 const LEFT_OF_SHEAR: f64 = 1e-8;
 const AT_REST: f64 = 1e-12;
