@@ -28,6 +28,7 @@
 # make ellipse   one brake application on patches of constant width and on an elliptical one: table and plot in results/
 # make published published tests and observations beside what is computed: table and picture in results/
 # make angle-of-attack  a wheel turned while it brakes, beside one that runs straight: table and plot in results/
+# make hunting   a wheelset of two wheels on springs below and above its critical speed, beside linear theory: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes, and those of every preset by speed and by brake:
 #                pressure, temperature, friction; an error where a limit is broken
 # make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
@@ -47,7 +48,7 @@
 # make clean     remove everything that was built
 #                make TARGET ARGS="..." hands options to the program of any example, train, sweep, endurance and
 #                random-parameters, make ellipse ARGS=--help lists them; OUT=folder puts results elsewhere than in results/
-#                ARGS=--brief shortens masters, suspension, creep-curve, own-vehicle, surfaces, ellipse, angle-of-attack and published; other short
+#                ARGS=--brief shortens masters, suspension, creep-curve, own-vehicle, surfaces, ellipse, angle-of-attack, hunting and published; other short
 #                ones: make demo ARGS=--speed-kmh=20, make flat ARGS="--once --slide 0.1 --roll 0.2"
 
 PYTHON ?= python3
@@ -95,10 +96,10 @@ SITE := $(VENV)/.site
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml \
 	$(shell find src slave/src resources docs/theory -type f) \
 	docs/fmu.html docs/page.html docs/style.css docs/profiles.md docs/patches.md docs/coupling.md docs/validation.md docs/speed.md \
-	docs/flat.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
+	docs/flat.png docs/hunting.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 compilers fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack published locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs bench-page site describe clean
+.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 compilers fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack hunting published locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs bench-page site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -220,6 +221,9 @@ published: $(FMU) $(RECORDS)
 
 angle-of-attack: $(FMU) $(INSTALLED)
 	$(PY) examples/ex14_angle_of_attack.py --fmu $(FMU) --out $(OUT) $(ARGS)
+
+hunting: $(FMU) $(INSTALLED)
+	$(PY) examples/ex16_wheelset.py --fmu $(FMU) --out $(OUT) $(ARGS)
 
 # The second study is made whatever the first one finds; a limit that either of them finds broken ends both with an error.
 LOCKED := $(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results

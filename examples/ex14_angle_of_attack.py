@@ -3,9 +3,9 @@
     make angle-of-attack
 
 A right-hand wheel on an elliptical patch brakes from 100 km/h with half of what friction can take. After 0.2 s it is turned by 10
-mrad within 50 ms, as by a curve, and its plane of contact rises by 50 mrad. The tread then slides forward and to the right:
-friction, which is one force, turns towards the slip, and the same braking force takes more creepage and makes more heat.
-The last column is the wheel turned the other way round, whose spin acts against its angle of attack.
+mrad to the right within 50 ms, as by a curve, and its plane of contact rises by 50 mrad. The tread then slides forward and to the
+left, and the rail pushes it to the right: friction, which is one force, turns against the slip, and the same braking force takes
+more creepage and makes more heat. The last column is the wheel turned to the left, whose spin acts against its angle of attack.
 """
 
 import argparse
@@ -20,7 +20,7 @@ from wheelrail.plots import COLOURS, pyplot, save
 SPEED, TORQUE, STEP = 100.0 / 3.6, 7e3, 1e-3  # m/s, N m, s
 BEGIN, RAMP, END = 0.2, 0.05, 0.6  # s
 CONTACT_ANGLE = 0.05  # rad
-ATTACKS = {"straight": 0.0, "10 mrad to the right": 10e-3, "10 mrad to the left": -10e-3}  # rad
+ATTACKS = {"straight": 0.0, "10 mrad to the right": 10e-3, "10 mrad to the left": -10e-3}  # rad, clockwise from above
 KELVIN = 273.15
 SEEN = (
     "contact.force_x", "contact.force_z", "contact.moment_y", "contact.creepage", "contact.lateral_creepage", "contact.spin",
@@ -41,12 +41,13 @@ def share(time):
 
 
 def attacked(fmu, angle, duration=END):
-    """Time with SEEN as columns, and what the lines have at the end, by ARROWS, of a wheel turned by an angle [rad]."""
+    """Time with SEEN as columns, and what the lines have at the end, by ARROWS, of a wheel turned to the right by an angle [rad]."""
     rows, parameters = [], {"preset": "railway_ellipse", "contact.lateral": True, "initial.velocity": SPEED}
     with Wheel(fmu, parameters, {"brake.torque": TORQUE, "drive.contact_angle": CONTACT_ANGLE}) as wheel:
         for k in range(round(duration / STEP)):
-            # Reached at the end of the step, as every velocity is.
-            wheel.set({"drive.lateral_velocity": angle * share((k + 1) * STEP) * wheel.get("wheel.velocity")})
+            # Reached at the end of the step, as every velocity is. What points to the right of its travel slides to the left.
+            turned = angle * share((k + 1) * STEP)
+            wheel.set({"drive.lateral_velocity": -np.sin(turned) * wheel.get("wheel.velocity") / np.cos(CONTACT_ANGLE)})
             wheel.step(STEP)
             rows.append([wheel.time, *wheel.get(*SEEN)])
         return np.array(rows), {name: wheel.line(name) for name in ARROWS}
@@ -66,12 +67,12 @@ def arrows(axis, lines):
         along = np.array(lines["force_x" if of == "force" else of])
         across = np.array(lines[f"{of}_z"])
         longest = max(np.hypot(along, across).max(), 1e-12)
-        size = 1e3 * max(lines["half_length"]) / longest
+        size = 0.6e3 * max(lines["half_length"]) / longest
         axis.quiver(np.zeros_like(z), z, size * along, size * across, color=colour, angles="xy", scale_units="xy", scale=1.0, label=name)
     half = 1e3 * np.array(lines["half_length"])
     axis.plot(np.concatenate([half, -half[::-1]]), np.concatenate([z, z[::-1]]), ".", color="0.6", markersize=3)
     reach = 1.2 * half.max()
-    axis.set(xlim=(-reach, reach), ylim=(1.1 * z.max(), 1.1 * z.min()), xlabel="x [mm]", ylabel="z [mm]")
+    axis.set(xlim=(-reach, reach), ylim=(z.max() + 0.5 * reach, z.min() - 0.5 * reach), xlabel="x [mm]", ylabel="z [mm]")
 
 
 def plot(path, found):
@@ -83,10 +84,10 @@ def plot(path, found):
             _, factor, offset = SHOWN[k - 1]
             axis.plot(rows[:, 0], factor * rows[:, k] + offset, color=colour, label=name)
             axis.set(title=title, xlabel="time [s]", ylabel="°C" if k == 10 else "kN")
-    axes[0, 1].legend()
+    axes[0, 1].legend(loc="upper left")
     axes[1, 1].set_title("Patch from above, 10 mrad to the right")
     arrows(axes[1, 1], found["10 mrad to the right"][1])
-    axes[1, 1].legend(loc="upper left")
+    axes[1, 1].legend(loc="lower right")
     save(path, figure)
 
 

@@ -34,6 +34,7 @@ CHECKOUT = (
     short("ellipse", "--brief"),
     Recipe("make ellipse ARGS=--help", says="--brief"),
     short("angle-of-attack", "--brief"),
+    short("hunting", "--brief"),
     short("published", "--brief"),
     short("masters", "--brief"),
     short("suspension", "--brief"),

@@ -41,7 +41,7 @@ def test_steel_cools_until_it_does_not_any_more(slid):
     hot, cold, _, took = slid
     before, after = damage.report(hot), damage.report(cold)
     print("\n".join(after.lines()), f"\ncold {took:.2f} s after the release")
-    assert not before.final and before.hot_places == 1 and "still cooling: 1 of 1 places are hot" in before.lines()[0]
+    assert not before.final and before.hot_places == 1 and "still cooling" in before.lines()[0]
     # Only at the edge, where the patch has moved on, steel is cold before the wheel is released.
     assert before.martensite_depth < 0.2 * after.martensite_depth and before.cooling_rate == 0.0
     assert after.final and took > 0.1 and "cold: the findings are final" in after.lines()[0]

@@ -31,7 +31,7 @@ def test_an_angle_of_attack_takes_more_creepage_and_heat_for_the_same_braking_fo
         assert turned[FORCE_X] == pytest.approx(straight[FORCE_X], rel=0.05)
         assert abs(turned[CREEPAGE]) > 1.1 * abs(straight[CREEPAGE]) and turned[POWER] > 2.0 * straight[POWER]
         assert turned[HOTTEST] > straight[HOTTEST] + 10.0 and turned[USED] <= 1.0 + 1e-6
-    assert right[FORCE_Z] < -5e3 and left[FORCE_Z] > 5e3 and right[DIRECTION] > 0.0 > left[DIRECTION]
+    assert right[FORCE_Z] > 5e3 and left[FORCE_Z] < -5e3 and right[DIRECTION] < 0.0 < left[DIRECTION]
 
 
 def test_the_example_tells_and_draws_what_it_found(found, tmp_path, capsys):

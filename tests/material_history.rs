@@ -177,9 +177,10 @@ fn extremes_over_the_depth_are_those_of_the_place_that_took_most_heat() {
     let excess: Vec<f64> = worst.peaks.iter().map(|peak| peak - REFERENCE).collect();
     let heat: f64 = (1..depth.len()).map(|k| 0.5 * (depth[k] - depth[k - 1]) * (excess[k] + excess[k - 1])).sum();
     assert!((worst.heat / heat - 1.0).abs() < 0.05, "{} and {heat} K m", worst.heat);
-    let half = worst.martensite.iter().rposition(|share| *share >= 0.5).unwrap();
+    let martensite = damage.martensite();
+    let half = martensite.iter().rposition(|share| *share >= 0.5).unwrap();
     assert!(depth[half] <= found.martensite_depth && found.martensite_depth < depth[half + 1]);
-    assert!(worst.martensite.iter().all(|share| (0.0..1.0).contains(share)));
+    assert!(martensite.iter().all(|share| (0.0..1.0).contains(share)));
     // A wheel without such a place knows none.
     let cold = spots.begin([0.0; 2]);
     assert_eq!((spots.hottest_angle(&cold), cold.hot_places()), (None, 0));
@@ -334,6 +335,41 @@ fn a_place_that_has_cooled_is_at_rest_and_what_was_found_stays() {
             && found.cooling_rate > 0.0
             && (found.martensite_depth / found.ac1_depth - 1.0).abs() < 1e-9
     );
+}
+
+/// A second slide on the same place: below Ac1 its martensite stays, above it there is none until it has cooled again. The depth and
+/// the shares over the depth say the same.
+#[test]
+fn martensite_that_becomes_austenite_again_is_gone_until_it_has_cooled() {
+    let spots = wheel(1.0);
+    let agree = |damage: &Damage| {
+        let (depth, shares) = (damage.findings().martensite_depth, damage.martensite());
+        let most = shares.iter().fold(0.0_f64, |most, share| most.max(*share));
+        println!("martensite to {:.4} mm, at most {most:.3}, {} hot places", 1e3 * depth, damage.hot_places());
+        assert_eq!(depth > 0.0, most >= 0.5);
+        depth
+    };
+    let cool = |damage: &mut Damage| {
+        for k in 1..=400 {
+            let now = moment(0.05, 1.5 * f64::from(k), 30.0, 0.0);
+            spots.advance(damage, &now, &|_, _: &mut [f64]| panic!("far away"), &mut Default::default());
+        }
+        assert_eq!(damage.hot_places(), 0);
+    };
+    let mut damage = spots.begin([0.0; 2]);
+    heat(&spots, &mut damage, 0.0, 1000.0);
+    assert_eq!(agree(&damage), 0.0);
+    cool(&mut damage);
+    let first = agree(&damage);
+    // Warm again, but no austenite.
+    heat(&spots, &mut damage, 0.0, 500.0);
+    assert_eq!((damage.hot_places(), agree(&damage)), (1, first));
+    cool(&mut damage);
+    assert_eq!(agree(&damage), first);
+    heat(&spots, &mut damage, 0.0, 1200.0);
+    assert!(agree(&damage) == 0.0 && damage.hot_places() == 1);
+    cool(&mut damage);
+    assert!(agree(&damage) > first && first > 0.0);
 }
 
 #[test]

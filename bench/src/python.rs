@@ -21,11 +21,11 @@ pub fn program(run: &Run) -> Result<String, String> {
     let (load, steps) = (1e3 * settings.load, run.steps());
     let (mut sideways, mut inputs, mut turned) = (String::new(), format!("\"drive.load\": {load}"), String::new());
     if settings.angle != 0.0 {
-        let angle = 1e-3 * settings.angle;
+        let share = settings.sideways();
         sideways = "    \"contact.lateral\": True,\n".to_owned();
-        inputs += &format!(", \"drive.lateral_velocity\": {}", angle * velocity);
+        inputs += &format!(", \"drive.lateral_velocity\": {}", share * velocity);
         turned =
-            format!("        wheel.set({{\"drive.lateral_velocity\": {angle} * wheel.get(\"wheel.velocity\")}})\n");
+            format!("        wheel.set({{\"drive.lateral_velocity\": {share} * wheel.get(\"wheel.velocity\")}})\n");
     }
     Ok(format!(
         r#""""A run of the bench: #{link}"""

@@ -46,7 +46,7 @@ impl Run {
             .map_err(|error| advice::failed_preparation(&error, &config))?;
         let mut inputs = Inputs::rolling(model.config());
         inputs.drive.load = 1e3 * settings.load;
-        inputs.drive.lateral_velocity = 1e-3 * settings.angle * inputs.drive.velocity;
+        inputs.drive.lateral_velocity = settings.sideways() * inputs.drive.velocity;
         let simulation = Simulation::new(model, &inputs).map_err(|error| error.to_string())?;
         let pending = settings.changes.iter().copied().collect();
         let (rail, torque) = (settings.rail, 1e3 * settings.torque);
@@ -92,7 +92,7 @@ impl Run {
             }
         }
         self.come_under()?;
-        self.inputs.drive.lateral_velocity = 1e-3 * self.settings.angle * self.simulation.outputs().wheel_velocity;
+        self.inputs.drive.lateral_velocity = self.settings.sideways() * self.simulation.outputs().wheel_velocity;
         self.simulation.advance(&self.inputs, STEP).map_err(|error| error.to_string())?;
         self.steps += 1;
         self.note();

@@ -72,7 +72,7 @@ pub struct Settings {
     pub load: f64,
     /// Torque of the brake from the first step on [kN m].
     pub torque: f64,
-    /// Angle of attack, to the right positive \[mrad]; 0 on a line, which has no width.
+    /// Angle of attack, positive where the wheel is turned to the right \[mrad]; 0 on a line, which has no width.
     pub angle: f64,
     /// Changes after the start, in order of their time: number of steps done before them, and what changes.
     pub changes: Vec<(u32, Change)>,
@@ -134,6 +134,11 @@ impl Settings {
                 Ok(())
             }
         }
+    }
+
+    /// Lateral velocity of the wheel on the rail over its velocity \[1]: a wheel turned to the right slides to the left.
+    pub fn sideways(&self) -> f64 {
+        -1e-3 * self.angle
     }
 
     /// Parameters of the model.

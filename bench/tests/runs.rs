@@ -168,12 +168,12 @@ fn the_picture_of_an_ellipse_has_the_pressure_of_hertz() {
 }
 
 #[test]
-fn a_wheel_with_an_angle_of_attack_is_pushed_to_the_side_and_the_picture_carries_that_force() {
+fn a_wheel_turned_to_the_right_is_pushed_to_the_right_and_the_picture_carries_that_force() {
     let mut bench = run("patch=ellipse&torque=4&angle=2");
     steps(&mut bench, 30);
     let (state, outputs) = (bench.simulation().state().clone(), bench.outputs().clone());
-    assert!((outputs.contact_lateral_creepage - 2e-3).abs() < 1e-4, "{}", outputs.contact_lateral_creepage);
-    assert!(outputs.contact_force_z < -5e3, "it slides to the right: {} N", outputs.contact_force_z);
+    assert!((outputs.contact_lateral_creepage + 2e-3).abs() < 1e-4, "{}", outputs.contact_lateral_creepage);
+    assert!(outputs.contact_force_z > 5e3, "it slides to the left: {} N", outputs.contact_force_z);
     let map = PatchMap::new(&state, &outputs, Patch::Ellipse, 293.15);
     let ([low, high], x) = (map.ends(), 1.1 * outputs.contact_half_width);
     let (size, mut values) = (GridSize { along: 200, across: 200 }, Vec::new());
@@ -197,7 +197,7 @@ fn a_turned_wheel_that_locks_slides_on_when_its_steel_melts() {
     let turned = outputs.contact_force_z / outputs.contact_force_x;
     println!("{:.0} K, force turned by {turned:.5}", outputs.temperature_wheel_max);
     assert!(outputs.temperature_wheel_max > 1400.0, "its steel stays cold");
-    assert!((turned - 4e-3).abs() < 1e-4, "the slide turns into the direction of the slip");
+    assert!((turned + 4e-3).abs() < 1e-4, "the slide turns into the direction of the slip");
 }
 
 #[test]

@@ -76,6 +76,8 @@ pub struct Damage {
     pub worst: Worst,
     /// Findings at spots that had to make room.
     pub forgotten: Findings,
+    /// Their largest shares of martensite at the depths of the mesh \[1]; empty without any.
+    pub forgotten_martensite: Vec<f64>,
     /// Number of places heated in one piece so far; those that touch each other count as one.
     pub places: u64,
 }
@@ -278,14 +280,14 @@ impl HotSpots {
         if let Some(least) = least {
             let spot = damage.spots.remove(least);
             damage.forgotten = damage.forgotten.with(&spot.findings());
+            raise(&mut damage.forgotten_martensite, spot.martensite());
         }
     }
 
     /// Agreement of a history with the dimensions of this model.
     pub fn fits(&self, damage: &Damage) -> bool {
-        let layers = [&damage.worst.peaks, &damage.worst.martensite].map(Vec::len);
-        let known =
-            layers.iter().all(|count| *count == 0) || layers.iter().all(|count| *count == self.mesh.depth.len());
+        let layers = [&damage.worst.peaks, &damage.forgotten_martensite].map(Vec::len);
+        let known = layers.iter().all(|count| *count == 0 || *count == self.mesh.depth.len());
         let place = damage.worst.heat.is_finite() && damage.worst.hottest.is_finite();
         known && place && damage.spots.len() <= MOST_SPOTS && damage.spots.iter().all(|spot| spot.fits(&self.mesh))
     }
@@ -298,6 +300,13 @@ impl Damage {
         Findings { above_ac1: all.above_ac1.max(self.tread.longest()), ..all }
     }
 
+    /// Largest share of martensite that there is now at each depth of the mesh, of all places \[1]; empty without any.
+    pub fn martensite(&self) -> Vec<f64> {
+        let mut most = self.forgotten_martensite.clone();
+        self.spots.iter().for_each(|spot| raise(&mut most, spot.martensite()));
+        most
+    }
+
     /// Number of places that are still hot.
     pub fn hot_places(&self) -> usize {
         self.spots.iter().filter(|spot| spot.is_hot()).count()
@@ -305,11 +314,18 @@ impl Damage {
 
     /// Replaces this by a copy, reusing memory.
     pub fn copy_from(&mut self, other: &Self) {
-        let Self { peak, rail_peak, tread, spots, worst, forgotten, places } = other;
+        let Self { peak, rail_peak, tread, spots, worst, forgotten, forgotten_martensite, places } = other;
         (self.peak, self.rail_peak) = (*peak, *rail_peak);
         self.tread.copy_from(tread);
         self.spots.clone_from(spots);
         self.worst.clone_from(worst);
+        self.forgotten_martensite.clone_from(forgotten_martensite);
         (self.forgotten, self.places) = (*forgotten, *places);
     }
+}
+
+/// Raises values at depths to those of another place; none are zero.
+fn raise(most: &mut Vec<f64>, values: &[f64]) {
+    most.resize(most.len().max(values.len()), 0.0);
+    most.iter_mut().zip(values).for_each(|(most, value)| *most = most.max(*value));
 }

@@ -34,7 +34,7 @@ pub struct PointHistory {
     pub left: Option<[f64; 2]>,
     /// Mean cooling rate from there to 500 °C; zero before [K/s].
     pub cooling_rate: f64,
-    /// Share of martensite \[1].
+    /// Share of martensite that there is now: below Ms, and none once it is austenite again \[1].
     pub martensite: f64,
 }
 
@@ -100,7 +100,7 @@ pub struct Findings {
     pub cooling_rate: f64,
     /// Depth to which Ac1 was exceeded \[m].
     pub ac1_depth: f64,
-    /// Depth to which at least half is martensite \[m].
+    /// Depth to which at least half is martensite now \[m]: steel that became austenite again is none.
     pub martensite_depth: f64,
 }
 
@@ -163,6 +163,25 @@ impl Records {
     /// Highest temperatures \[K] and histories of the columns of `layers` points.
     pub(super) fn columns(&self, layers: usize) -> impl Iterator<Item = (&[f64], &[PointHistory])> {
         self.peaks.chunks_exact(layers).zip(self.histories.iter().map(Vec::as_slice))
+    }
+
+    /// Largest share of martensite that there is now at each of `layers` depths \[1].
+    pub(super) fn martensite(&self, layers: usize) -> Vec<f64> {
+        let mut most = vec![0.0_f64; layers];
+        for histories in &self.histories {
+            most.iter_mut().zip(histories).for_each(|(most, history)| *most = most.max(history.martensite));
+        }
+        most
+    }
+
+    /// What counts after a rest: martensite alone, and no temperatures.
+    pub(super) fn at_rest(&self) -> Self {
+        let kept = |history: &PointHistory| PointHistory { martensite: history.martensite, ..PointHistory::default() };
+        let histories = self.histories.iter().map(|histories| match histories.iter().any(|h| h.martensite > 0.0) {
+            true => histories.iter().map(kept).collect(),
+            false => Vec::new(),
+        });
+        Self { peaks: vec![0.0; self.peaks.len()], histories: histories.collect() }
     }
 
     /// Agreement with the dimensions of a mesh.

@@ -69,6 +69,11 @@ pub struct Spot {
     /// Time that is still to be computed \[s], and that of the places beside the contact \[s].
     pending: f64,
     beside: f64,
+    /// Martensite that it brought into its rest; a new heating begins with it, and what becomes austenite again loses it.
+    #[serde(with = "shared")]
+    rested: Option<Arc<Records>>,
+    /// Largest share of martensite that there is now at each depth of the mesh \[1].
+    martensite: Vec<f64>,
     /// Findings of earlier heatings.
     earlier: Findings,
     /// Findings of the latest heating.
@@ -103,6 +108,11 @@ impl Spot {
         self.earlier.with(&self.latest)
     }
 
+    /// Largest share of martensite that there is now at each depth of the mesh \[1].
+    pub fn martensite(&self) -> &[f64] {
+        &self.martensite
+    }
+
     /// Presence of temperatures that are still followed.
     pub fn is_hot(&self) -> bool {
         self.field.is_some()
@@ -131,8 +141,12 @@ impl Spot {
         }
         let dt = std::mem::take(&mut self.pending);
         let (layers, all) = (mesh.depth.len(), 0..mesh.arc.len());
-        // A place that was at rest is cold.
-        let field = self.field.get_or_insert_with(|| Arc::new(SpotField::cold(mesh, recorder)));
+        // A place that was at rest is cold, and has the martensite of before.
+        if self.field.is_none() {
+            self.field = Some(Arc::new(SpotField::cold(mesh, recorder, self.rested.take())));
+            self.earlier.martensite_depth = 0.0;
+        }
+        let Some(field) = self.field.as_mut() else { return false };
         let (mut now, mut remainder) = (field.temperature.clone(), Vec::new());
         let covered = visit.columns(mesh);
         if back {
@@ -220,12 +234,10 @@ impl Spot {
     pub(super) fn raise(&self, mesh: &SpotMesh, reference: f64, worst: &mut Worst) {
         let Some(field) = self.field() else { return };
         let (layers, thickness) = (mesh.depth.len(), mesh.shares.iter().sum::<f64>());
-        let Worst { peaks, martensite, heat, hottest } = worst;
+        let Worst { peaks, heat, hottest } = worst;
         peaks.resize(layers, 0.0);
-        martensite.resize(layers, 0.0);
-        for (arc, (column, histories)) in mesh.arc.iter().zip(field.records.columns(layers)) {
+        for (arc, (column, _)) in mesh.arc.iter().zip(field.records.columns(layers)) {
             peaks.iter_mut().zip(column).for_each(|(peak, place)| *peak = peak.max(*place));
-            martensite.iter_mut().zip(histories).for_each(|(most, history)| *most = most.max(history.martensite));
             let found = dot(column, &mesh.shares) - reference * thickness;
             if found > *heat {
                 (*heat, *hottest) = (found, self.arc + arc);
@@ -237,6 +249,7 @@ impl Spot {
     pub(super) fn rest_below(&mut self, limit: f64) {
         let cold = |field: &SpotField| field.temperature.iter().all(|&excess| excess < limit);
         if self.field().is_some_and(cold) {
+            self.rested = self.field().map(|field| Arc::new(field.records.at_rest()));
             (self.field, self.following) = (None, false);
             [self.alone, self.pending, self.beside] = [0.0; 3];
             self.earlier = self.findings();
@@ -247,6 +260,7 @@ impl Spot {
     fn judge(&mut self, mesh: &SpotMesh, recorder: &Recorder) {
         if let Some(field) = &self.field {
             self.latest = Findings::of(mesh, &field.records, &recorder.criteria);
+            self.martensite = field.records.martensite(mesh.depth.len());
         }
     }
 
@@ -260,15 +274,18 @@ impl Spot {
                 && (field.remainder.is_empty() || field.remainder.len() == size)
                 && times.iter().all(|time| time.is_finite() && *time >= 0.0)
         };
-        self.arc.is_finite() && self.field().is_none_or(fits)
+        let rested = self.rested.as_ref().is_none_or(|records| records.fits(mesh));
+        let shares = self.martensite.len() == mesh.depth.len();
+        self.arc.is_finite() && rested && shares && self.field().is_none_or(fits)
     }
 }
 
 impl SpotField {
-    /// Temperatures of a place without excess.
-    fn cold(mesh: &SpotMesh, recorder: &Recorder) -> Self {
+    /// Temperatures of a place without excess, with the records of a place at rest.
+    fn cold(mesh: &SpotMesh, recorder: &Recorder, rested: Option<Arc<Records>>) -> Self {
         let temperature = vec![0.0; mesh.size()];
-        Self { records: recorder.begin(&temperature, mesh), temperature, ..Self::default() }
+        let records = rested.map_or_else(|| recorder.begin(&temperature, mesh), Arc::unwrap_or_clone);
+        Self { records, temperature, ..Self::default() }
     }
 
     /// The field after a step of `dt` [s] to the given temperatures, with the records of its points.

@@ -7,8 +7,6 @@ use serde::{Deserialize, Serialize};
 pub struct Worst {
     /// Highest temperatures \[K].
     pub peaks: Vec<f64>,
-    /// Largest shares of martensite \[1].
-    pub martensite: Vec<f64>,
     /// Largest integral over the depth of the highest excess temperatures of a column [K m].
     pub heat: f64,
     /// Position of that column in the material: distance along the tread, as the place of a spot \[m].

@@ -51,8 +51,8 @@ const PAGES: [(&str, &str); 30] = files![include_str:
 ];
 
 /// Pictures on the pages, by their paths below `docs`, which they keep.
-pub const PICTURES: [(&str, &[u8]); 6] = files![include_bytes:
-    "flat.png", "masters.png", "own_vehicle.png", "sideways.svg", "surfaces.png", "suspension.png"
+pub const PICTURES: [(&str, &[u8]); 7] = files![include_bytes:
+    "flat.png", "hunting.png", "masters.png", "own_vehicle.png", "sideways.svg", "surfaces.png", "suspension.png"
 ];
 
 /// All pages.

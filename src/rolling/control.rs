@@ -243,13 +243,15 @@ inputs! {
             "Vertical load on the hub in addition to drive.load, pressing down positive: what a suspension adds to the static \
              load. Masters whose connections are zero before the first step keep the load at the start";
         208 lateral_velocity of "drive", in "m/s" as "mm/s", from -50.0 to 50.0, nominal 0.1,
-            "Lateral velocity of the hub in the plane of contact, to the right positive, with contact.lateral: velocity times angle of \
-             attack, and what the wheelset moves sideways";
+            "Lateral velocity of the wheel on the rail in the plane of contact, at the centre of load (contact.load_position), to the right \
+             positive, with contact.lateral: what the wheelset moves to the right, less drive.velocity times the sine of the angle of attack, \
+             which is positive where the wheel is turned to the right, both over the cosine of drive.contact_angle";
         209 lateral_force of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4 ramps in "N/s",
             "Lateral force on the hub in the plane of contact, to the right positive, with contact.lateral";
         210 spin of "drive", in "1/m", from -100.0 to 100.0, nominal 0.1,
-            "Spin of the wheel on the rail over its velocity, with contact.lateral: seen from above it turns clockwise on the rail \
-             by this angle per metre travelled, besides what drive.contact_angle makes";
+            "Spin of the wheel on the rail over its velocity, with contact.lateral: seen from above it turns clockwise over the ground \
+             by this angle per metre travelled (in a right-hand curve 1/radius), times the cosine of drive.contact_angle, besides what \
+             drive.contact_angle makes";
         211 contact_angle of "drive", in "rad" as "deg", from -1.5 to 1.5, nominal 0.05,
             "Angle between the plane of contact and the axle, with contact.lateral: positive where the plane rises to the right, as that of \
              a right-hand wheel does. The turning wheel spins in this plane with minus wheel.omega times the sine";

@@ -99,6 +99,10 @@ outputs! {
         "Direction of the mean slip of the tread on the rail, from that of travel to the right positive; 0 where it sticks";
     326 contact_tread_slip_z: real "contact.tread_slip_z", in "m/s" as "mm/s", nominal 1e-2,
         "Lateral part of the mean slip velocity of the tread, to the right positive";
+    327 contact_load_position: real "contact.load_position", in "m" as "mm", nominal 1e-3,
+        "Lateral position of the centre of load in the coordinate of contact.rows (of line.position), which holds for the whole run: \
+         drive.velocity, drive.lateral_velocity and the radius of rolling are those of this place, and contact.moment_y is about it; 0 on a \
+         line and on an ellipse";
     257 rail_profile_height: real "rail.profile_height", in "m" as "mm", nominal 1e-5,
         "Height of rail.profile below the wheel centre, up positive";
     408 wheel_profile_height: real "wheel.profile_height", in "m" as "mm", nominal 1e-5,
@@ -209,8 +213,8 @@ outputs! {
         "Mean cooling rate from 800 to 500 degC (from thermal.austenitisation, if it was hotter than that but not than \
          800 degC) of the point of these places that was longest above it; 0 until it has cooled to 500 degC";
     705 martensite_depth: real "damage.martensite_depth", in "m" as "mm", from 0.0, nominal 1e-3, start zero,
-        "Largest depth of at least half martensite at these places: austenitised, cooled at damage.critical_cooling or \
-         faster, and far enough below damage.martensite_start";
+        "Largest depth of at least half martensite that there is now at these places: austenitised, cooled at damage.critical_cooling or \
+         faster, far enough below damage.martensite_start, and not austenite again";
     706 flats: count "damage.flats", start zero,
         "Places of the tread that the contact heated by more than damage.threshold while the wheel (nearly) stood still; places \
          that touch each other count once";
@@ -218,7 +222,7 @@ outputs! {
         "Value of wheel.angle at which the place touches that became hottest over its depth, of those counted by damage.flats: where the \
          highest temperatures so far have the largest integral over the depth. For thermal.tread_point; 0 without any";
     721 hot_places: count "damage.hot_places", start zero,
-        "Places of the tread, of those counted by damage.flats, that are still hot: while there are any, steel cools, and \
+        "Parts of the places counted by damage.flats that are still hot, up to 8: while there are any, steel cools, and \
          damage.cooling_rate and damage.martensite_depth may change";
     707 rail_peak: real "damage.rail_peak", in "K" as "degC", from 0.0, nominal 300.0,
         "Temperature of the hottest point of the rail that has passed the contact so far, absolute; 0 without \
@@ -326,7 +330,8 @@ outputs! {
     18000 profile_peak: profile "profile.peak_temperature", in "K" as "degC", from 0.0, nominal 300.0,
         "Highest temperature so far at that depth, of the places counted by damage.flats; thermal.reference without any";
     26000 profile_martensite: profile "profile.martensite", in "1" as "%", from 0.0 to 1.0, nominal 0.5,
-        "Largest share of martensite so far at that depth, of the places counted by damage.flats; 0 without any";
+        "Largest share of martensite that there is now at that depth, of the places counted by damage.flats: steel that is hot has none, \
+         nor has what became austenite again; 0 without any";
     27000 profile_hottest_below: deferred "profile.temperature_hottest_below", in "K" as "degC", from 0.0, nominal 300.0,
         "Temperature of the wheel below damage.hottest_point, at profile.depth; below the contact point as long as there is none";
     19000 profile_wheel_below: deferred "profile.temperature_wheel_below", in "K" as "degC", from 0.0, nominal 300.0,

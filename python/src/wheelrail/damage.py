@@ -54,7 +54,7 @@ class Damage:
     hottest: float  # K, of the tread so far
     place: float  # rad, wheel.angle at which the place touches that became hottest over its depth
     flats: int  # places heated in one piece
-    hot_places: int  # of them, still hot
+    hot_places: int  # their parts that are still hot
     flat_length: float  # m
     flat_depth: float  # m
     flattening: float  # m
@@ -67,8 +67,8 @@ class Damage:
     used: float | None  # share of the friction limit of the cold rail that a locked wheel used; None: never locked, or not recorded
     depth: np.ndarray
     peak: np.ndarray  # K
-    martensite: np.ndarray  # 1
-    hardness: np.ndarray  # HV
+    martensite: np.ndarray  # 1, that there is at the end
+    hardness: np.ndarray  # HV; NaN where steel that was above Ac1 has not become martensite or cold yet
 
     @property
     def final(self) -> bool:
@@ -77,7 +77,7 @@ class Damage:
 
     def rows(self) -> list[tuple[str, str]]:
         """Findings as texts, name and value with unit."""
-        state = "cold: the findings are final" if self.final else f"still cooling: {self.hot_places} of {self.flats} places are hot"
+        state = "cold: the findings are final" if self.final else "still cooling: the findings may change"
         found = [
             ("state", state if self.flats else "no place was heated in one piece"),
             ("hottest point of the tread", f"{self.hottest - KELVIN:.0f} °C"),
@@ -87,22 +87,25 @@ class Damage:
         ]  # fmt: skip
         if not self.flats:
             return found
+        so_far = "" if self.final else " so far"
+        hardest = f"{np.nanmax(self.hardness):.0f} HV{so_far}" if self.final or self.martensite.any() else "not known before it is cold"
         rate = f"{self.cooling_rate:.0f} K/s" if self.cooling_rate > 0.0 else "not yet at 500 °C" if self.ac1_depth > 0.0 else "never above Ac1"
         return found + [
             ("touches at wheel.angle", f"{self.place:.4f} rad, {np.degrees(self.place):.1f}°"),
             ("depth above Ac1", f"{1e3 * self.ac1_depth:.3f} mm"), ("longest time above Ac1", f"{self.time_above_ac1:.3f} s"),
-            ("cooling from 800 to 500 °C", rate), ("depth of martensite, half or more", f"{1e3 * self.martensite_depth:.3f} mm"),
-            ("largest hardness", f"{self.hardness.max():.0f} HV"), ("molten layer at most", f"{1e6 * self.melted:.0f} µm"),
+            ("cooling from 800 to 500 °C", rate), ("depth of martensite, half or more", f"{1e3 * self.martensite_depth:.3f} mm{so_far}"),
+            ("largest hardness", hardest), ("molten layer at most", f"{1e6 * self.melted:.0f} µm"),
         ]  # fmt: skip
 
     def comparisons(self) -> list[tuple[str, str, str]]:
         """What others observed, what this run shows, and the source; only what the run has something to say to."""
         found = []
         if self.flats:
-            shows = f"{1e3 * self.martensite_depth:.2f} mm deep" if self.martensite_depth > 0.0 else "none" if self.final else "none yet"
+            shows = f"{1e3 * self.martensite_depth:.2f} mm deep" if self.martensite_depth > 0.0 else "none"
+            shows = shows if self.final else "none yet" if self.martensite_depth == 0.0 else f"{shows} so far"
             found.append(("martensite beneath every flat", shows, SILINGE))
-        if self.martensite_depth > 0.0:
-            found.append(("hardness of martensite in rail steel 884 HV", f"{self.hardness.max():.0f} HV in wheel steel", RAIL))
+        if self.final and self.martensite_depth > 0.0:
+            found.append(("hardness of martensite in rail steel 884 HV", f"{np.nanmax(self.hardness):.0f} HV in wheel steel", RAIL))
             found.append(("its depth in a rail 0.23 to 0.31 mm", f"{1e3 * self.martensite_depth:.2f} mm in the wheel", RAIL))
             found.append(("turn off all martensite and several millimetres more", f"more than {1e3 * self.martensite_depth:.1f} mm", SILINGE))
         if self.used is not None:
@@ -130,10 +133,14 @@ def report(run: xarray.Dataset, *, steel: Mapping[str, float] = STEEL, base: flo
     peak, martensite = (run[name].values[-1] for name in PROFILES)
     whole = {name: int(last.pop(name)) for name in ("flats", "hot_places")}
     numbers = {name: float(value) for name, value in last.items() if name not in ("peak_temperature", "hottest_point")}
+    # While the point that was hottest longest is above 500 degC, steel that is cold has cooled at least as fast as martensite needs.
+    rate = numbers["cooling_rate"] or _parameter(run, "damage.critical_cooling", 50.0)
+    hard = hardness(martensite, rate, steel, base)
+    if whole["hot_places"]:
+        hard[(run["depth"].values <= numbers["ac1_depth"]) & (martensite == 0.0)] = np.nan
     return Damage(
         time=float(run["time"][-1]), hottest=float(last["peak_temperature"]), place=float(last["hottest_point"]), used=_used(run),
-        depth=run["depth"].values, peak=peak, martensite=martensite,
-        hardness=hardness(martensite, float(last["cooling_rate"]), steel, base), **whole, **numbers,
+        depth=run["depth"].values, peak=peak, martensite=martensite, hardness=hard, **whole, **numbers,
     )  # fmt: skip
 
 
@@ -149,6 +156,11 @@ def hardness(martensite: np.ndarray, cooling_rate: float, steel: Mapping[str, fl
     quenched += 21.0 * np.log10(max(3600.0 * cooling_rate, 1.0))
     share = np.clip(martensite, 0.0, 1.0)
     return share * quenched + (1.0 - share) * base
+
+
+def _parameter(run: xarray.Dataset, name: str, default: float) -> float:
+    """A parameter of the run."""
+    return float(json.loads(run.attrs.get("parameters", "{}")).get(name, default))
 
 
 def settle(wheel: Wheel, *, step: float = 5e-3, longest: float = 120.0) -> float:
@@ -194,10 +206,12 @@ def run(options: Namespace) -> None:
     out = options.out or options.run.with_name(f"{options.run.stem}_damage.csv")
     columns = out.with_name(f"{out.stem}_columns.csv")
     rows = zip(found.depth, found.peak, found.martensite, found.hardness)
-    write_rows(out, [("depth", "peak_temperature", "martensite", "hardness"), *([f"{v:.9g}" for v in row] for row in rows)])
+    text = lambda v: "" if np.isnan(v) else f"{v:.9g}"
+    write_rows(out, [("depth", "peak_temperature", "martensite", "hardness"), *([text(v) for v in row] for row in rows)])
     write_rows(columns, [
         ("column", "unit", "description"), ("depth", "m", "below the tread"), ("peak_temperature", "K", "highest so far at that depth"),
-        ("martensite", "1", "largest share so far"), ("hardness", "HV", "of that share and of the steel as it was"),
+        ("martensite", "1", "largest share that there is at the end"),
+        ("hardness", "HV", "of that share and of the steel as it was; empty where it is not known before the steel is cold"),
     ])  # fmt: skip
     print("\n".join(found.lines()))
     print(f"written: {out}, {columns}")

@@ -93,9 +93,9 @@ impl MaterialHistory {
         self.over_depth(&damage.worst.peaks, reference)
     }
 
-    /// Largest share of martensite at the depths of profiles, of the same places \[1].
+    /// Largest share of martensite that there is now at the depths of profiles, of the same places \[1].
     pub fn martensite(&self, damage: &Damage) -> Vec<f64> {
-        self.over_depth(&damage.worst.martensite, 0.0)
+        self.over_depth(&damage.martensite(), 0.0)
     }
 
     /// Values at the depths of the spots' mesh at those of profiles; all are `none` if nothing is known.

@@ -1,0 +1,196 @@
+"""Example 16: a wheelset of two FMU wheels on springs hunts.
+
+    make hunting
+
+A conical wheelset runs along straight track, held by springs in a frame that moves with constant speed. It is displaced by 0.2 mm at
+the start. Below the critical speed the motion dies out, above it grows to a limit cycle. The table compares frequency and growth
+with those of linear theory, whose creep coefficients are measured on the same FMU.
+
+The wheelset is the master's: mass, springs, and where the wheels are. A wheel is told how it moves on its rail (`inputs`) and
+answers with the force of the rail (`forces`), as docs/coupling.md says. Replace `Wheelset.step` to couple a vehicle of your own.
+Left out are that the wheelset rolls about the track, that lateral forces carry a part of the load, and by default the angle of the
+cones (`contact_angle`).
+"""
+
+import argparse
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from wheelrail import Fmu, Refused, Wheel
+from wheelrail.plots import COLOURS, pyplot, save
+
+STEP, DURATION = 1e-3, 2.0  # s
+SPEEDS = (50.0, 65.0, 75.0)  # m/s
+LOAD = 100e3  # vertical load of a wheel [N]
+FIXED = {
+    "preset": "railway_ellipse", "contact.lateral": True, "thermal.enabled": False, "friction.softening": 0.0, "physics.yielding": False,
+    "model.nominal_load": LOAD,
+}  # fmt: skip
+CONTROL = {"control.rotation": "velocity", "control.translation": "velocity"}
+FELT = ("contact.force_x", "contact.force_z", "contact.force_y", "contact.moment_y")
+RIGHT, LEFT = 1, -1
+
+
+@dataclass
+class Wheelset:
+    """A rigid wheelset on springs. Positions: y to the right [m], yaw clockwise seen from above, which is to the right [rad]."""
+
+    speed: float  # m/s
+    y: float = 2e-4
+    yaw: float = 0.0
+    y_rate: float = 0.0
+    yaw_rate: float = 0.0
+    mass: float = 1500.0  # kg
+    inertia: float = 900.0  # of yaw [kg m2]
+    lateral_stiffness: float = 1e6  # N/m
+    yaw_stiffness: float = 2e6  # N m/rad
+    half_spacing: float = 0.75  # m
+    conicity: float = 0.1
+    contact_angle: float = 0.0  # of the right-hand wheel [rad]
+
+    def inputs(self, side, radius):
+        """What a wheel is told, at the end of the coming step."""
+        angle, turned = side * self.contact_angle, [np.cos(self.yaw), np.sin(self.yaw)]
+        along = self.speed * turned[0] + self.y_rate * turned[1]
+        return {
+            "drive.velocity": along - side * self.half_spacing * self.yaw_rate,
+            "drive.omega": self.speed / radius * (1.0 + side * self.conicity * self.y / radius),
+            "drive.lateral_velocity": (self.y_rate * turned[0] - self.speed * turned[1]) / np.cos(angle),
+            "drive.spin": self.yaw_rate * np.cos(angle) / self.speed,
+            "drive.contact_angle": angle,
+            "drive.load": LOAD / np.cos(angle),
+        }
+
+    def forces(self, side, felt):
+        """Force to the right [N] and moment about the vertical, clockwise [N m], of a wheel on the wheelset."""
+        along, across, normal, moment = felt
+        angle = side * self.contact_angle
+        level = across * np.cos(angle) - normal * np.sin(angle)  # along the axle
+        force = level * np.cos(self.yaw) + along * np.sin(self.yaw)
+        return np.array([force, -side * self.half_spacing * along - moment * np.cos(angle)])
+
+    def step(self, force, moment, h):
+        """Moves on under force and moment of both contacts: the trapezoidal rule in the springs."""
+
+        def moved(place, rate, inertia, stiffness, load):
+            share = h * h * stiffness / (4.0 * inertia)
+            new = (rate * (1.0 - share) + h * (load - stiffness * place) / inertia) / (1.0 + share)
+            return place + 0.5 * h * (rate + new), new
+
+        self.y, self.y_rate = moved(self.y, self.y_rate, self.mass, self.lateral_stiffness, force)
+        self.yaw, self.yaw_rate = moved(self.yaw, self.yaw_rate, self.inertia, self.yaw_stiffness, moment)
+
+
+def hunting(fmu, wheelset, duration=DURATION, step=STEP, ahead=True):
+    """Rows of time, y, yaw and the lateral force of both wheels on the wheelset. It ends early where the wheelset leaves the track.
+
+    Contacts act on the wheelset with the forces of the middle of the coming step, extrapolated from the last two steps. Without
+    `ahead` those of the last step are held, which damps the motion falsely."""
+    parameters, rows = FIXED | {"initial.velocity": wheelset.speed}, []
+    with Wheel(fmu, parameters, CONTROL) as right, Wheel(fmu, parameters, CONTROL) as left:
+        wheels = {RIGHT: right, LEFT: left}
+        radius = right.get("wheel.radius")
+        felt = {side: wheel.get(*FELT) for side, wheel in wheels.items()}
+        now = before = sum(wheelset.forces(side, felt[side]) for side in wheels)
+        for k in range(round(duration / step)):
+            wheelset.step(*(1.5 * now - 0.5 * before if ahead else now), step)
+            for side, wheel in wheels.items():
+                wheel.set(wheelset.inputs(side, radius))
+                wheel.step(step)
+                felt[side] = wheel.get(*FELT)
+            now, before = sum(wheelset.forces(side, felt[side]) for side in wheels), now
+            rows.append((step * (k + 1), wheelset.y, wheelset.yaw, now[0]))
+            if abs(wheelset.y) > 0.02:
+                break
+    return np.array(rows)
+
+
+def coefficients(fmu, speed):
+    """Creep coefficients of one wheel from small creepages: f11, f22, f23, f33, and the moment by lateral creepage; and the radius."""
+    found = {}
+    for creepage, lateral, spin in ((2e-5, 0.0, 0.0), (0.0, 2e-5, 0.0), (0.0, 0.0, 0.01)):
+        parameters = FIXED | {"initial.velocity": speed, "initial.creepage": creepage}
+        with Wheel(fmu, parameters, CONTROL | {"drive.lateral_velocity": lateral * speed, "drive.spin": spin}) as wheel:
+            for _ in range(10):
+                wheel.step(STEP)
+            found[bool(creepage), bool(lateral)] = wheel.get(*FELT, "contact.creepage", "contact.lateral_creepage", "contact.spin")
+            radius = wheel.get("wheel.radius")
+    along, across, turned = found[True, False], found[False, True], found[False, False]
+    f11, f22, f23 = -along[0] / along[4], -across[1] / across[5], -turned[1] / turned[6]
+    return f11, f22, f23, turned[3] / turned[6], across[3] / across[5], radius
+
+
+def mode(wheelset, found):
+    """Growth [1/s] and frequency [Hz] of the least damped motion by linear theory, with the creepages (y' - V yaw)/V and yaw'/V."""
+    f11, f22, f23, f33, cross, radius = found
+    b, speed, inertia = wheelset.half_spacing, wheelset.speed, np.diag([1.0 / wheelset.mass, 1.0 / wheelset.inertia])
+    damping = 2.0 / speed * np.array([[f22, f23], [cross, f11 * b**2 + f33]])
+    lever = 2.0 * f11 * wheelset.conicity * b / radius
+    stiffness = np.array([[wheelset.lateral_stiffness, -2.0 * f22], [lever, wheelset.yaw_stiffness - 2.0 * cross]])
+    values = np.linalg.eigvals(np.block([[np.zeros((2, 2)), np.eye(2)], [-inertia @ stiffness, -inertia @ damping]]))
+    least = values[np.argmax(values.real)]
+    return least.real, abs(least.imag) / (2.0 * np.pi)
+
+
+def growth(time, y):
+    """Growth [1/s] and frequency [Hz] of an oscillation, from its maxima after the first third."""
+    time, y = time[len(time) // 3 :], y[len(y) // 3 :]
+    top = np.flatnonzero((y[1:-1] > y[:-2]) & (y[1:-1] >= y[2:]) & (y[1:-1] > 0.0)) + 1
+    if len(top) < 2:
+        return np.nan, np.nan
+    # A maximum lies between samples: that of the parabola through three of them.
+    a, b, c = y[top - 1], y[top], y[top + 1]
+    shift = 0.5 * (a - c) / (a - 2.0 * b + c)
+    times, heights = time[top] + shift * (time[1] - time[0]), b - 0.25 * (a - c) * shift
+    return np.polyfit(times, np.log(heights), 1)[0], (len(times) - 1) / (times[-1] - times[0])
+
+
+def klingel(wheelset, radius):
+    """Frequency [Hz] of a free wheelset without mass, by geometry alone."""
+    return wheelset.speed / (2.0 * np.pi) * np.sqrt(wheelset.conicity / (radius * wheelset.half_spacing))
+
+
+def plot(path, runs):
+    """Lateral displacement over time, one speed below the other."""
+    figure, axes = pyplot().subplots(len(runs), 1, figsize=(8, 1.8 * len(runs)), sharex=True, layout="constrained", squeeze=False)
+    for axis, colour, (speed, rows) in zip(axes[:, 0], COLOURS, runs.items()):
+        axis.plot(rows[:, 0], 1e3 * rows[:, 1], color=colour)
+        axis.set(title=f"{speed:.0f} m/s", ylabel="y [mm], right")
+    axes[-1, 0].set_xlabel("time [s]")
+    save(path, figure)
+
+
+def run(options):
+    """All speeds, the table and the picture."""
+    runs = {}
+    with Fmu(options.fmu) as fmu:
+        print(f"{'speed [m/s]':>12}{'frequency [Hz]':>18}{'linear':>10}{'growth [1/s]':>16}{'linear':>10}{'y at the end [mm]':>20}")
+        found = coefficients(fmu, 50.0)
+        for speed in options.speeds:
+            rows = runs[speed] = hunting(fmu, Wheelset(speed), 0.4 if options.brief else options.duration)
+            (rate, frequency), (rate0, frequency0) = growth(rows[:, 0], rows[:, 1]), mode(Wheelset(speed), found)
+            print(f"{speed:12.1f}{frequency:18.3f}{frequency0:10.3f}{rate:16.3f}{rate0:10.3f}{1e3 * rows[-1, 1]:20.3f}", flush=True)
+    options.out.mkdir(parents=True, exist_ok=True)
+    plot(options.out / "hunting.png", runs)
+    print(f"\nwritten: {options.out / 'hunting.png'}")
+
+
+def arguments():
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--fmu", type=Path, default=Path("target/wheelrail.fmu"), help="default: %(default)s")
+    parser.add_argument("--out", type=Path, default=Path("results"), help="directory for the plot")
+    parser.add_argument("--speeds", type=float, nargs="+", default=SPEEDS, help="m/s; default: %(default)s")
+    parser.add_argument("--duration", type=float, default=DURATION, help="s; default: %(default)s")
+    parser.add_argument("--brief", action="store_true", help="0.4 s of each, in seconds")
+    return parser.parse_args()
+
+
+if __name__ == "__main__":
+    try:
+        run(arguments())
+    except (FileNotFoundError, Refused) as error:
+        sys.exit(f"error: {error}")
