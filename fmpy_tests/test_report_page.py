@@ -447,6 +447,32 @@ def test_the_patch_from_above_moves_with_the_slider(elliptical, tmp_path, browse
     assert complaints == [] and len(asked) == 1
 
 
+# Boxes of the colour bar of the patch from above and of all texts of its axes that it covers.
+COVERED = """() => {
+  const box = (e) => e.getBoundingClientRect(), bar = box(document.querySelector('#above .cbfills'));
+  return [...document.querySelectorAll('#above :is(.xtitle, .x2title, .ytitle, .y2title, .xtick, .x2tick, .ytick, .y2tick)')]
+    .filter((e) => { const b = box(e); return b.left < bar.right && b.right > bar.left && b.top < bar.bottom && b.bottom > bar.top; })
+    .map((e) => e.textContent);
+}"""
+# How far the last figure of each group ends before the group does [px].
+LACKS = "() => [...document.querySelectorAll('.charts')].filter((c) => c.children.length && c.clientWidth).map((c) => c.getBoundingClientRect().right - c.lastElementChild.getBoundingClientRect().right)"
+
+
+@plotly_js
+@pytest.mark.parametrize("width", [390, 800, 1440])
+def test_nothing_covers_a_label_and_no_figure_stands_beside_an_empty_place(elliptical, tmp_path, browser, width):
+    path = page.write(tmp_path / "run.html", elliptical)
+    tab = browser.new_context(viewport={"width": width, "height": 900}, offline=True).new_page()
+    tab.goto(path.as_uri())
+    tab.wait_for_selector("body[data-ready]", timeout=120_000)
+    covered, lacks = tab.evaluate(COVERED), tab.evaluate(LACKS)
+    # Of even and odd numbers of figures.
+    tab.evaluate("() => document.querySelectorAll('.charts').forEach((c) => c.children.length > 1 && c.lastElementChild.remove())")
+    lacks += tab.evaluate(LACKS)
+    print(f"{width} px: covered {covered}, figures end {lacks} px before their group")
+    assert covered == [] and max(lacks) <= 1.0 and tab.evaluate("document.documentElement.scrollWidth") <= width
+
+
 @plotly_js
 def test_the_page_of_stops_changes_from_stop_to_stop_and_fits_a_telephone(stopped, tmp_path, browser):
     path = page.of_stops(tmp_path / "stops.html", stopped)

@@ -100,21 +100,29 @@ function depthMap(field, time) {
   return { data, layout: layout(look) };
 }
 
-// The patch from above: a quantity over x and z, its outline, where it sticks; beside it the hottest place of each line.
+// Where the patch from above and the temperatures of its lines stand: side by side, or on a narrow page one below the other.
+function placesAbove(heat) {
+  if (!heat) return { x: [0, 1], y: [0, 1], bar: { x: 1.02 } };
+  if ($("#above").clientWidth >= 560) return { x: [0, 0.58], y: [0, 1], bar: { x: 0.6 }, heat: { x: [0.72, 1] } };
+  return { x: [0, 1], y: [0.5, 1], bar: { x: 1.02, y: 0.75, len: 0.5 }, heat: { x: [0, 1], y: [0, 0.3] } };
+}
+
+// The patch from above: a quantity over x and z, its outline, where it sticks; with it the hottest place of each line.
 function patchFromAbove(lines, grid, key, frame, fit) {
   const row = (key) => lines[key][frame],
     z = row("z"),
     a = row("half_length"),
     edges = row("edges"),
     { unit, low, high } = lines.grid.quantities[key],
-    side = lines.ahead[frame];
+    side = lines.ahead[frame],
+    places = placesAbove(lines.temperature_wheel || lines.temperature_rail);
   const most = (table) => Math.max(...table.flat()),
     reach = 1.06 * (fit ? Math.max(...a) : most(lines.half_length)) || 1,
     across = 1.06 * (fit ? Math.max(...edges) : most(lines.edges)) || 1;
   const times = lines.grid.finer,
-    [places, rows] = [lines.grid.x, lines.grid.z].map((row) => finer([row, row], times, false)[0]),
+    [columns, rows] = [lines.grid.x, lines.grid.z].map((row) => finer([row, row], times, false)[0]),
     [trailing, leading] = lines.grid.rim[frame],
-    within = (v, i, j) => (places[i] > trailing[j] && places[i] < leading[j] ? v : null),
+    within = (v, i, j) => (columns[i] > trailing[j] && columns[i] < leading[j] ? v : null),
     all = finer(grid[key](frame), times, key === "state"),
     values = key.startsWith("temp") ? all : all.map((line, j) => line.map((v, i) => within(v, i, j)));
   const touching = z.map((_, k) => k).filter((k) => a[k] > 0),
@@ -124,13 +132,13 @@ function patchFromAbove(lines, grid, key, frame, fit) {
   const data = [
     {
       type: "heatmap",
-      x: places,
+      x: columns,
       y: rows,
       z: values,
       ...aboveScale(key, low, high, fit ? most(values.map((line) => line.map((v) => v ?? low))) : high),
       colorbar: {
         thickness: 12,
-        x: lines.temperature_wheel || lines.temperature_rail ? 0.6 : 1.02,
+        ...places.bar,
         ...(key === "state" ? { tickvals: [1, 2], ticktext: ["sticks", "slips"] } : { title: { text: unit } }),
       },
       hovertemplate: `x %{x:.3~g} mm, z %{y:.3~g} mm${key === "state" ? "" : `: %{z:.4~g} ${unit}`}<extra></extra>`,
@@ -189,18 +197,22 @@ function patchFromAbove(lines, grid, key, frame, fit) {
       x: row(key),
       y: z,
       xaxis: "x2",
+      ...(places.heat.y && { yaxis: "y2" }),
       hovertemplate: "z %{y:.3~g} mm: %{x:.4~g} °C<extra></extra>",
       line: { color: colour(c), width: 2, dash },
     });
-  const heat = bodies.length
-    ? { xaxis2: axis("[°C]", { domain: [0.72, 1], ...(fit ? {} : { range: extent(...bodies.map(([key]) => lines[key])) }) }) }
-    : {};
+  const heat = {};
+  if (bodies.length) {
+    const range = fit ? {} : { range: extent(...bodies.map(([key]) => lines[key])) };
+    heat.xaxis2 = axis("[°C]", { domain: places.heat.x, ...(places.heat.y && { anchor: "y2" }), ...range });
+    if (places.heat.y) heat.yaxis2 = axis("z [mm]", { domain: places.heat.y, range: [-across, across], anchor: "x2" });
+  }
   return {
     data,
     layout: layout({
       hovermode: "closest",
-      xaxis: axis("x [mm], travel to the right →", { domain: [0, bodies.length ? 0.58 : 1], range: [-reach, reach], constrain: "domain" }),
-      yaxis: axis("z [mm], across the rail", { range: [-across, across], scaleanchor: "x", constrain: "domain" }),
+      xaxis: axis("x [mm], travel to the right →", { domain: places.x, range: [-reach, reach], constrain: "domain" }),
+      yaxis: axis("z [mm], across the rail", { domain: places.y, range: [-across, across], scaleanchor: "x", constrain: "domain" }),
       ...heat,
     }),
   };

@@ -169,18 +169,19 @@ def _damage(found):
 
 
 def _damage_note(found):
-    note = "Of the place of the tread that the contact heated most while the wheel stood still, or nearly so."
-    return note if found.final else note + " Steel still cools: the findings may change."
+    note = "The most of all places of the tread that the contact heated while the wheel stood still, or nearly so."
+    return note if found.final else note + " Steel still cools: the findings may change, and hardness is that of what is cold."
 
 
 def damage_charts(found):
-    """Highest temperature, martensite and hardness over the depth, down to where something has changed."""
+    """Highest temperature, martensite and hardness over the depth, down to where something has changed; the last two where steel is cold."""
     deep = int(np.flatnonzero(found.peak > found.peak.min() + 0.02 * np.ptp(found.peak)).max(initial=1)) + 2
     depth = 1e3 * found.depth[:deep]
     rows = (
         ("Highest temperature over the depth", CELSIUS, found.peak), ("Martensite over the depth", PERCENT, found.martensite),
         ("Hardness over the depth", Shown("HV"), found.hardness),
     )  # fmt: skip
+    rows = rows if found.final or found.martensite.any() else rows[:1]
     curve = lambda k, unit, values: charts.trace(depth, unit(values[:deep]), "end of the run", k + 1)
     return [charts.chart(title, unit.label, [curve(k, unit, v)], x="depth [mm]") for k, (title, unit, v) in enumerate(rows)]
 
