@@ -228,6 +228,27 @@ def test_a_link_that_is_none_is_told_and_the_page_goes_on(tab):
     assert tab.evaluate("bench.text('link')").startswith("patch=line")
 
 
+# Readings by their labels.
+TILES = "() => Object.fromEntries([...document.querySelectorAll('#tiles div')].map((d) => [d.children[0].textContent, d.children[1].textContent]))"
+
+
+def test_on_a_telephone_the_wheel_is_seen_to_turn_and_tells_its_lateral_force(tab):
+    tab.set_viewport_size({"width": 390, "height": 844})
+    opened(tab, f"{START.format('ellipse')}&angle=4")
+    bar = tab.locator(".drive").bounding_box()["y"]
+    for part in ("#track", "#tiles"):
+        box = tab.locator(part).bounding_box()
+        assert box["y"] >= 0.0 and box["y"] + box["height"] <= bar, f"{part} lies behind the bar"
+    wheel, before = "() => document.querySelector('#track').toDataURL()", tab.evaluate(TILES)
+    first = tab.evaluate(wheel)
+    tab.click("#go")
+    tab.wait_for_function("() => bench.frame.get('time') > 0.02", timeout=60_000)
+    now = tab.evaluate(TILES)
+    assert tab.evaluate("scrollY") == 0 and tab.evaluate(wheel) != first and now["time"] != before["time"]
+    # Turned to the right, it is pushed to the right.
+    assert float(now["lateral force, right"].split()[0]) > 5.0 and len(now) == 10
+
+
 @pytest.mark.parametrize("width", [390, 800, 1400, 3840])
 def test_nothing_is_wider_than_the_window(tab, width):
     tab.set_viewport_size({"width": width, "height": 900})

@@ -44,6 +44,11 @@ def test_steel_cools_until_it_does_not_any_more(slid):
     assert not before.final and before.hot_places == 1 and "still cooling" in before.lines()[0]
     # Only at the edge, where the patch has moved on, steel is cold before the wheel is released.
     assert before.martensite_depth < 0.2 * after.martensite_depth and before.cooling_rate == 0.0
+    # Of steel that was above Ac1 and is hot no hardness is told, and no martensite is compared with that of others.
+    hidden = np.isnan(before.hardness)
+    assert hidden.any() and (before.depth[hidden] <= before.ac1_depth).all() and not before.martensite[hidden].any()
+    assert not np.isnan(after.hardness).any() and not any("HV" in here for _, here, _ in before.comparisons())
+    assert dict(before.rows())["largest hardness"].endswith(("so far", "not known before it is cold"))
     assert after.final and took > 0.1 and "cold: the findings are final" in after.lines()[0]
     assert after.flats == 1 and after.hottest > 1000.0 and after.flat_depth > 1e-6 and after.flat_length > 1e-3
 

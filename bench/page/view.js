@@ -36,8 +36,10 @@ const TILES = [
   ["speed", "km/h", 1, (f) => 3.6 * f.get("wheel.velocity")],
   ["creepage", "%", 2, (f) => 100 * f.get("contact.creepage")],
   ["brake force", "kN", 2, (f) => -1e-3 * f.get("contact.force_x")],
+  ["lateral force, right", "kN", 2, (f) => 1e-3 * f.get("contact.force_z")],
   ["friction in use", "%", 0, (f) => 100 * f.get("contact.utilisation")],
   ["part that sticks", "%", 0, (f) => 100 * f.get("contact.stick_fraction")],
+  ["friction power", "kW", 2, (f) => 1e-3 * f.get("heat.friction_power")],
   ["largest pressure", "MPa", 0, (f) => 1e-6 * f.get("contact.pressure_max")],
   ["hottest place", "°C", 0, (f) => Math.max(f.get("temperature.wheel_max"), f.get("temperature.rail_max")) - KELVIN],
 ];
