@@ -42,6 +42,18 @@ def test_the_example_tells_and_draws_what_it_found(found, tmp_path, capsys):
     assert (tmp_path / "angle.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize("preset", ["railway_s1002_0mm", "railway_s1002_3mm", "railway_ellipse"])
+def test_creepages_belong_to_the_centre_of_load_which_an_output_tells(start, preset):
+    """It is that of the loads of the lines, in the coordinate of the table, and the same under every load."""
+    for load in (1e5, 6e4):
+        wheel = start({"preset": preset, "contact.lateral": True, "model.nominal_load": load, "thermal.enabled": False})
+        place, loads = np.array(wheel.line("position")), np.array(wheel.line("force_y"))
+        told = wheel.get("contact.load_position")
+        print(f"{preset} under {load:.0f} N: {1e3 * told:.4f} mm, lines {1e3 * place @ loads / loads.sum():.4f} mm")
+        assert told == pytest.approx(place @ loads / loads.sum(), abs=2e-7)
+        assert (told == 0.0) == (preset == "railway_ellipse")
+
+
 def test_lateral_control_changes_without_a_jump(start):
     """A velocity that becomes free under its own reaction stays."""
     wheel = start(ELLIPSE, {"drive.lateral_velocity": 0.02})

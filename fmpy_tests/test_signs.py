@@ -44,3 +44,19 @@ def test_force_moment_brake_load_and_slope_with_their_rates_change_momentum_and_
     print(f"work of the hub {hub:.1f} J, {work:.1f} J; gravity {-whole(weight * seen['wheel.velocity']):.1f} J, {gravity:.1f} J; brake {brake:.1f} J")
     assert work == pytest.approx(hub, rel=2e-3, abs=20.0) and gravity == pytest.approx(-whole(weight * seen["wheel.velocity"]), rel=2e-3)
     assert brake == pytest.approx(STEP * seen["brake.power"][1:].sum(), rel=1e-9) and stored < 0.0 < brake
+
+
+@pytest.mark.parametrize("travel", [1.0, -1.0], ids=["forward", "backward"])
+def test_the_hub_is_the_approach_below_the_rail_that_rises_and_the_rail_lifts_the_load(start, travel):
+    parameters = {"preset": "railway", "initial.velocity": 20.0 * travel, "thermal.enabled": False, "physics.yielding": False}
+    wheel = start(parameters, {})
+    begin = wheel.get("hub.height")
+    for k in range(1, 201):
+        phase = np.pi * k / 200.0
+        wheel.set({"rail.elevation": 5e-4 * (1.0 - np.cos(phase)), "rail.elevation_rate": 5e-4 * np.sin(phase) * np.pi / 0.2})
+        wheel.step(STEP)
+    names = ("hub.height", "rail.elevation", "contact.approach", "energy.rail_work", "drive.load")
+    height, elevation, approach, work, load = wheel.get(*names)
+    print(f"hub {1e3 * height:.4f} mm, rail {1e3 * elevation:.4f} mm, approach {1e3 * approach:.4f} mm; work {work:.2f} J of {load * (height - begin):.2f} J")
+    assert elevation == pytest.approx(1e-3) and height == pytest.approx(elevation - approach, rel=1e-12)
+    assert work == pytest.approx(load * (height - begin), rel=2e-2)
