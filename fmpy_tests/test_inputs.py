@@ -61,7 +61,7 @@ MEANT = {
 
 @pytest.mark.parametrize("name", MEANT)
 def test_times_in_this_form_are_seconds_of_the_run(name):
-    times, values = samples_of({"drive.load": MEANT[name]})["drive.load"]
+    times, values, _ = samples_of({"drive.load": MEANT[name]})["drive.load"]
     print(name, list(times), list(values))
     assert list(times) == TIMES and list(values) == VALUES
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from . import report, signals, surfaces
 from .output import fresh, write_rows
-from .page.sources import guessed
+from .page.units import guessed
 from .tables import BadFile, number_in, read_table
 
 UNIT = re.compile(r"\s+\[[^\]]*\]$")  # behind the name of a column
