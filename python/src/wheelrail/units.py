@@ -120,6 +120,8 @@ def _product(tokens):
         for symbol, exponent in parts.items():
             si[symbol] = si.get(symbol, 0) + power * exponent
         sign = 1
+    if sign < 0:
+        raise KeyError("/")
     return factor, si
 
 
