@@ -68,7 +68,7 @@ def test_names_may_have_their_unit_behind_them():
     for text in ("v [km/h]", "v (km/h)", "v/km/h", "v / km/h", "v in km/h", "v, km/h", " v[km/h] "):
         assert headed(text) == ("v", "km/h")
     assert headed("profile.x[3] [mm]") == ("profile.x[3]", "mm") and headed("profile.x[3]") == ("profile.x[3]", None)
-    assert headed("two words") == ("two words", None)
+    assert headed("Speed of the wheel / km/h") == ("Speed of the wheel", "km/h") and headed("two words") == ("two words", None)
 
 
 TIMES, SPEEDS = [0.0, 0.5, 1.0], [72.0, 36.0, 18.0]  # s, km/h
@@ -110,6 +110,7 @@ USED = {
     "Series with an attribute": {"drive.velocity": noted(pandas.Series(SPEEDS, TIMES), units="km/h")},
     "Series as a run's table notes it": {"drive.velocity": noted(pandas.Series(SPEEDS, TIMES, name="v"), variables={"v": {"units": "km/h"}})},
     "Series by its name": {"drive.velocity": pandas.Series(SPEEDS, pandas.Index([0, 500, 1000], name="time [ms]"), name="v [km/h]")},
+    "Series by a name with a stroke": {"drive.velocity": pandas.Series(SPEEDS, pandas.Index([0, 500, 1000], name="t/ms"), name="Wheel speed/km/h")},
     "pair with an array": {"drive.velocity": (TIMES, array("km/h"))},
     "pint": {"drive.velocity": (Q([0, 500, 1000], "ms"), Q(SPEEDS, "km/h"))},
     "pint, one by one": {"drive.velocity": [(Q(1e3 * time, "ms"), Q(speed, "km/h")) for time, speed in zip(TIMES, SPEEDS)]},

@@ -17,7 +17,7 @@ from numbers import Real
 import numpy as np
 
 from .records import library
-from .units import agreed, beside, bracketed, converted
+from .units import agreed, behind, beside, converted
 from .values import short
 
 LATEST = 1e8  # s: a later time is a date, or counts something else than seconds
@@ -98,7 +98,7 @@ def _index(name, times):
     if not len(times):
         raise ValueError(f"{name} is empty: expected a value at one time at least")
     times, unit = beside(times)
-    unit = unit or bracketed(getattr(times, "name", None))
+    unit = unit or behind(getattr(times, "name", None))
     if isinstance(times, (list, tuple)):
         times = [converted(f"{name}: time", *beside(time), "s") for time in times]
     if np.ma.is_masked(times):

@@ -43,9 +43,8 @@ SPELLED = str.maketrans({"·": ".", "⋅": ".", "*": ".", "×": ".", "−": "-",
 CELSIUS = re.compile(r"℃|(?:°|deg(?:ree)?s?)[ _]?c(?:elsius)?\b|\bcelsius\b", re.IGNORECASE)
 TOKEN = re.compile(r"[./()]|[^\d\s.^/()+-]+|\^?[+-]?\d+")
 # A name with its unit, as people head columns: `force [kN]`, `force (kN)`, `force/kN`, `force in kN`, `force, kN`.
-HEADED = re.compile(r"^\s*(?P<name>[\w.]+(?:\[\d+\])?)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>.*)\)|/\s*(?P<c>.+)|\s+in\s+(?P<d>.+)|,\s*(?P<e>.+))?\s*$")
+HEADED = re.compile(r"^\s*(?P<name>[\w.]+(?:\[\d+\])?(?: +[\w.]+)*?)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>.*)\)|/\s*(?P<c>.+)|\s+in\s+(?P<d>.+)|,\s*(?P<e>.+))?\s*$")
 TIMES = ("time", "t")  # names of columns of times, in small letters
-BRACKETED = re.compile(r"^.*\S?\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>[^()]*)\))\s*$")
 
 
 class UnitError(ValueError):
@@ -201,11 +200,10 @@ def named(text: Any, known: Container[str]) -> tuple[Any, str | None]:
     return (name, unit) if text not in known and name in known else (text, None)
 
 
-def bracketed(name: Any) -> str | None:
-    """The unit in brackets at the end of the name of a column or an index, None without."""
-    match = BRACKETED.match(name) if isinstance(name, str) else None
-    text = "" if match is None else (match["a"] if match["a"] is not None else match["b"]).strip()
-    return None if not text or text.isdecimal() else text  # numbers are those of points
+def behind(name: Any) -> str | None:
+    """The unit behind the name of a column or an index, None without."""
+    unit = headed(name)[1]
+    return None if not unit or unit.isdecimal() else unit  # numbers are those of points
 
 
 def noted(attrs: Any, name: Any = None) -> str | None:
@@ -226,7 +224,7 @@ def beside(given: Any) -> tuple[Any, str | None]:
     if isinstance(given, (int, float, str, list, tuple, dict)):
         return given, None
     if hasattr(given, "iloc"):  # of pandas
-        unit = noted(given.attrs, getattr(given, "name", None)) or bracketed(getattr(given, "name", None))
+        unit = noted(given.attrs, getattr(given, "name", None)) or behind(getattr(given, "name", None))
         if hasattr(getattr(given, "dtype", None), "units"):  # of pint-pandas
             return beside_magnitude(given, given.pint.quantity)
         return given, unit
