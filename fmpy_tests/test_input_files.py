@@ -42,6 +42,7 @@ DOUBTED = [
     ("leaves.csv", None, SECTIONS + "12000,wet,0,0\n12400,dry,0,0\n", ["all sections lie ahead of", "begin = 0 m to 3000 m", "12000 m"]),
     ("leaves.csv", None, SECTIONS + "-900,wet,0,0\n-400,dry,0,0\n", ["from -900 to -400 m", "only the last one, 'dry'"]),
     ("leaves.csv", None, SECTIONS + "250,wet,0,0\n", ["the sections begin ahead of", "250 m"]),
+    ("leaves.csv", None, SECTIONS + "0,wet,0,0\n0.4,dry,0,0\n1.1,wet,0,0\n", ["the last section, 'wet' from 1.1 m on, has nearly all of", "in km"]),
 ]
 
 
@@ -51,7 +52,28 @@ def test_what_looks_like_another_unit_or_place_is_said(folder, file, old, new, w
     assert all(word in text for word in words)
 
 
-MEANT = ["0,wet,0,0", "0,wet,0.03,-20", "0,wet,-0.03,40"]
+KILOMETRES = ["12,wet,0,0\n12.4,dry,0,0\n13.1,wet,0,0\n", "9.8,wet,0,0\n12.4,dry,0,0\n55,wet,0,0\n113,wet,0,0\n"]
+
+
+@pytest.mark.parametrize("rows", KILOMETRES)
+def test_chainages_in_kilometres_are_doubted(folder, rows):
+    (text,) = said(folder, "leaves.csv", None, SECTIONS + rows, {"track.begin": 12.0})
+    assert "if positions are in km, call the column position [km], and write begin in m: 12000" in text
+    assert said(folder, "leaves.csv", None, SECTIONS.replace("position", "position [km]") + rows, {"track.begin": 12e3}) == []
+
+
+def test_falling_chainages_say_how_to_write_them(folder):
+    (folder / "leaves.csv").write_text(SECTIONS + "12400,wet,0,0\n12000,dry,0,0\n")
+    with pytest.raises(BadFile) as refused:
+        scenario.load(folder / "low_adhesion.json")
+    print(refused.value)
+    assert "leaves.csv:3: position 12000 m is not beyond 12400 m" in str(refused.value)
+    assert "write them negative, -12400 before -12000, and begin of the track likewise" in str(refused.value)
+    # What it says is taken.
+    assert said(folder, "leaves.csv", None, SECTIONS + "-12400,wet,0,0\n-12000,dry,0,0\n", {"track.begin": -12400.0}) == []
+
+
+MEANT = ["0,wet,0,0", "0,wet,0.03,-20", "0,wet,-0.03,40", "0,wet,0,0\n250,dry,0,0\n251,wet,0,0", "0,wet,0,0\n60,dry,0,0"]
 
 
 @pytest.mark.parametrize("row", MEANT)

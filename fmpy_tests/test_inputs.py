@@ -5,6 +5,7 @@ import csv
 import datetime
 import os
 import subprocess
+import sys
 import warnings
 from decimal import Decimal
 from fractions import Fraction
@@ -44,6 +45,9 @@ MEANT = {
     "floats": series(TIMES),
     "float32": series(np.float32(TIMES)),
     "named": series(pandas.Index(TIMES, name="time [s]")),
+    "milliseconds by name": series(pandas.Index([0, 500, 1000], name="time [ms]")),
+    "milliseconds by attribute": xarray.DataArray(VALUES, [("time", [0, 500, 1000], {"units": "ms"})]),
+    "minutes by name": series(pandas.Index([0, 0.5 / 60, 1 / 60], name="time (min)")),
     "nullable": series(pandas.Index(pandas.array(TIMES, dtype="Float64"))),
     "objects": series(pandas.Index([0, Fraction(1, 2), Decimal("1.0")], dtype=object)),
     "spans": series(pandas.to_timedelta(TIMES, unit="s")),
@@ -61,7 +65,7 @@ MEANT = {
 
 @pytest.mark.parametrize("name", MEANT)
 def test_times_in_this_form_are_seconds_of_the_run(name):
-    times, values = samples_of({"drive.load": MEANT[name]})["drive.load"]
+    times, values, _ = samples_of({"drive.load": MEANT[name]})["drive.load"]
     print(name, list(times), list(values))
     assert list(times) == TIMES and list(values) == VALUES
 
@@ -98,8 +102,9 @@ REFUSED = {
     "unsorted": (series([0.0, 2.0, 1.0]), "1 s follows 2 s"),
     "nanoseconds": (series(np.array(DATES, "M8[ns]").astype("i8")), "seconds of the run"),
     "seconds since 1970": (series([1.7e9, 1.7e9 + 1, 1.7e9 + 2]), "seconds of the run"),
-    "milliseconds by name": (series(pandas.Index([0, 500, 1000], name="time [ms]")), "times are in ms"),
-    "milliseconds by attribute": (xarray.DataArray(VALUES, [("time", TIMES, {"units": "ms"})]), "'ms'"),
+    "metres by name": (series(pandas.Index([0, 500, 1000], name="place [m]")), "time is in 'm': expected s"),
+    "metres by attribute": (xarray.DataArray(VALUES, [("place", TIMES, {"units": "m"})]), "time is in 'm': expected s"),
+    "a date by attribute": (xarray.DataArray(VALUES, [("time", TIMES, {"units": "seconds since 2026-01-01"})]), "is no unit"),
     "no coordinate": (xarray.DataArray(VALUES, dims="time"), "coordinate"),
     "two columns": (pandas.DataFrame({"a": VALUES, "b": VALUES}, index=TIMES), "2 columns"),
     "two by two lists": ([[0, 1], [5, 6]], "can mean"),
@@ -246,3 +251,86 @@ def test_a_table_of_inputs_is_a_scenario(fmu):
         warnings.simplefilter("error")
         run = wheelrail.simulate({"initial.velocity": 20.0}, table, outputs="wheel.velocity", fmu=fmu, progress=False)
     assert float(run["drive.load"][-1]) == 1.1e5 and float(run["brake.torque"][1]) == 500.0
+
+
+class Stream:
+    """A table of whoever speaks Arrow and is not pandas, such as polars and DuckDB: all that is known of it is its stream."""
+
+    def __init__(self, table):
+        self.table = table
+
+    def __arrow_c_stream__(self, requested_schema=None):
+        return self.table.__arrow_c_stream__(requested_schema)
+
+
+def braked(fmu, inputs):
+    """Brake torque of a run of 2 ms."""
+    parameters = {"initial.velocity": 20.0, "thermal.enabled": False}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        run = wheelrail.simulate(parameters, inputs, outputs="wheel.velocity", fmu=fmu, progress=False)
+    return run.time.values.tolist(), run["brake.torque"].values.tolist()
+
+
+TORQUES = ([0.0, 1e-3, 2e-3], [0.0, 1000.0, 2000.0])
+
+
+@pytest.mark.parametrize("name", ["time", "Time", "TIME", "t", "t [s]", "Time (ms)", "t/ms"])
+def test_a_column_of_times_is_found_by_its_name(fmu, name):
+    times = [1e3 * time for time in TORQUES[0]] if "ms" in name else TORQUES[0]
+    table = pandas.DataFrame({"brake.torque": TORQUES[1], name: times})
+    assert braked(fmu, table) == braked(fmu, table.set_index(name)) == TORQUES
+
+
+def test_a_key_of_times_says_how_to_write_inputs(fmu):
+    for name in ("time", "Time", "t"):
+        with pytest.raises(wheelrail.Refused, match=f"{name} is no input: write \\(times, values\\) for each input, or give a table"):
+            wheelrail.simulate(inputs={name: TORQUES[0], "brake.torque": TORQUES}, fmu=fmu)
+
+
+def test_tables_of_arrow_are_inputs(fmu):
+    pyarrow = pytest.importorskip("pyarrow")
+    columns = {"t": TORQUES[0], "brake.torque [kN m]": [1e-3 * torque for torque in TORQUES[1]]}
+    table = pyarrow.table(columns)
+    spans = pyarrow.table({"time": pyarrow.array([0, 1, 2], pyarrow.duration("ms")), "brake.torque": TORQUES[1]})
+    marks = [pyarrow.field("time", pyarrow.float64(), metadata={"unit": "s"}), pyarrow.field("brake.torque", pyarrow.float64(), metadata={"units": "kN.m"})]
+    marked = pyarrow.table(list(columns.values()), schema=pyarrow.schema(marks))
+    for given in (table, table.to_batches()[0], table.to_reader(), Stream(table), Stream(spans), Stream(marked)):
+        assert braked(fmu, given) == TORQUES, given
+    assert braked(fmu, {"brake.torque": (pyarrow.array(TORQUES[0]), pyarrow.chunked_array([TORQUES[1]]))}) == TORQUES
+    texts = Stream(pyarrow.table({"time": TORQUES[0], "control.rotation": ["moment", "velocity", "velocity"]}))
+    run = wheelrail.simulate(inputs=texts, outputs="wheel.velocity", fmu=fmu)
+    assert run["control.rotation"].values.tolist() == ["moment", "moment", "velocity"]
+
+
+def test_tables_of_arrow_that_are_no_inputs_are_refused_in_words(fmu):
+    pyarrow = pytest.importorskip("pyarrow")
+    gap = Stream(pyarrow.table({"time": [0.0, 1e-3], "brake.torque": [0.0, None]}))
+    with pytest.raises(ValueError, match="brake.torque = nan at 0.001 is no finite number"):
+        wheelrail.simulate(inputs=gap, fmu=fmu)
+    with pytest.raises(wheelrail.Refused, match="did you mean brake.torque"):
+        wheelrail.simulate(inputs=Stream(pyarrow.table({"time": [0.0, 1e-3], "brake.torqe": [0.0, 1.0]})), fmu=fmu)
+    with pytest.raises(ValueError, match="is no table of inputs"):
+        wheelrail.simulate(inputs=Stream(pyarrow.chunked_array([[0.0, 1.0]])), fmu=fmu)
+
+
+WITHOUT = """
+import sys
+sys.modules.update(dict.fromkeys(sys.argv[1].split(",")))  # as if they were not installed
+import wheelrail
+class Table:
+    def __arrow_c_stream__(self, schema=None): raise AssertionError
+given = Table() if "pyarrow" in sys.argv[1] else {"brake.torque": ([0.0, 1e-3], [0.0, 1.0])}
+try:
+    wheelrail.simulate({"initial.velocity": 20.0}, given)
+except ImportError as refused:
+    print(refused)
+"""
+
+
+@pytest.mark.parametrize("missing, extra", [("pandas", "records"), ("pandas,xarray", "records"), ("xarray", "records"), ("pyarrow", "parquet")])
+def test_what_is_not_installed_is_said_with_how_to_install_it(packed, missing, extra):
+    environment = os.environ | {"WHEELRAIL_FMU": str(packed)}
+    done = subprocess.run([sys.executable, "-c", WITHOUT, missing], env=environment, capture_output=True, text=True, check=True)
+    print(done.stdout)
+    assert f"{missing.split(',')[0]}, which is not installed: pip install wheelrail[{extra}]" in done.stdout

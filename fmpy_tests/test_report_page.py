@@ -269,6 +269,49 @@ def test_lines_in_a_csv_and_in_a_file_are_those_of_the_record(elliptical, packed
     assert film.of_run(sources.read(tmp_path / "run.nc", packed)) == film.of_run(of_dataset(elliptical))
 
 
+@plotly_js
+def test_a_record_of_several_runs_is_refused_and_each_of_them_has_its_page(fmu, tmp_path, capsys):
+    xarray = pytest.importorskip("xarray", reason="xarray is not installed")
+    pytest.importorskip("h5netcdf", reason="h5netcdf is not installed")
+    single = [simulate({"initial.velocity": 20.0}, {"brake.torque": 4000.0}, stop=stop, fmu=fmu) for stop in (5e-3, 8e-3)]
+    both = xarray.concat(single, "run", join="outer", coords="minimal", compat="override", combine_attrs="override")
+    both.to_netcdf(tmp_path / "both.nc", engine="h5netcdf")
+    words = "the record is over run (2) besides time, and a page shows one run: write a page of each, such as of record.isel(run=0)"
+    with pytest.raises(page.BadFile) as refused:
+        page.write(tmp_path / "both.html", both)
+    assert words in str(refused.value) and words in refusal([tmp_path / "both.nc"], capsys)
+    for k, run in enumerate(single):
+        found = of_dataset(both.isel(run=k))
+        assert list(found.time) == list(run.time.values)
+        assert charts.of_run(found) == charts.of_run(of_dataset(run))
+    with pytest.raises(page.BadFile, match="no numbers over time"):
+        page.write(tmp_path / "none.html", single[0][[]].assign_coords(time=single[0].time))
+    with pytest.raises(page.BadFile, match="no coordinate time"):
+        page.write(tmp_path / "none.html", single[0].drop_vars("time"))
+    with pytest.warns(UserWarning, match="not on the page, being over sensor besides time: strain"):
+        page.write(tmp_path / "more.html", single[0].assign(strain=(("time", "sensor"), np.zeros((6, 2)))))
+
+
+@plotly_js
+@pytest.mark.parametrize("gap", [slice(-1, None), slice(0, 1), slice(2, 4), slice(None)], ids=["end", "start", "between", "all"])
+def test_gaps_in_any_quantity_of_a_record_are_drawn_as_gaps(fmu, tmp_path, gap):
+    pytest.importorskip("xarray", reason="xarray is not installed")
+    parameters = {"preset": "railway_ellipse", "contact.lines": 3, "initial.velocity": 20.0}
+    run = simulate(parameters, {"brake.torque": 8000.0}, stop=5e-3, profiles=True, depth=True, fmu=fmu)
+    holed = {}
+    for name, variable in run.data_vars.items():
+        if variable.dtype.kind == "f":
+            values = variable.values.copy()
+            values[gap] = np.nan
+            holed[name] = (variable.dims, values, variable.attrs)
+    # Rows of which nothing is known are left out; a velocity keeps them in.
+    kept = run.assign({name: of for name, of in holed.items() if name != "wheel.velocity"})
+    assert len(of_dataset(kept).time) == 6
+    for one in (kept, run.assign({"wheel.velocity": holed["wheel.velocity"]}), run.assign({"profile.temperature_wheel": holed["profile.temperature_wheel"]})):
+        page.write(tmp_path / "run.html", one)
+    assert units.number(float("nan")) == "–" and units.Shown("N").text(float("inf")) == "–"
+
+
 def test_a_patch_of_constant_width_is_not_drawn_from_above(fmu):
     pytest.importorskip("xarray", reason="xarray is not installed")
     run = of_dataset(simulate(stop=2e-3, outputs=["line.*", "wheel.velocity"], fmu=fmu))

@@ -9,6 +9,7 @@ use wheelrail::fmi::description::{DEFAULT_STEP_SIZE, DEFAULT_STOP_TIME};
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::variable::{Kind, Value};
 use wheelrail::simulation::LONGEST_STEP;
+use wheelrail_slave::clock;
 
 /// Difference of times, in steps, that is rounding only.
 const ROUNDING: f64 = 1e-6;
@@ -69,7 +70,7 @@ impl Run {
 
     /// Present time [s].
     pub fn time(&self) -> f64 {
-        if self.done == self.steps { self.stop } else { self.done as f64 * self.step }
+        if self.done == self.steps { self.stop } else { clock::at(self.done, self.step) }
     }
 
     /// One communication step; the last one is shorter if need be, and one in which inputs jump is taken in parts, which

@@ -5,25 +5,25 @@ Results are CSV files with a header, such as `wheelrail simulate --out run.csv` 
 
 import csv
 import difflib
-import re
 from pathlib import Path
 
 import numpy as np
 
-from . import report, signals, surfaces
+from . import report, signals, surfaces, units
 from .output import fresh, write_rows
-from .page.sources import guessed
+from .page.units import guessed
 from .tables import BadFile, number_in, read_table
+from .units import UnitError, converted, headed, named
 
-UNIT = re.compile(r"\s+\[[^\]]*\]$")  # behind the name of a column
 FORCE = "contact.force_y"
+KNOWN = {"time": "s", "position": "m", "height": "m"}  # units of columns that are no variables of the FMU
 SHARES = (0.5, 0.9, 0.99, 0.999)  # of time, of which the level that is not exceeded is printed
 
 
 def read_columns(path, names):
-    """Columns of a CSV file by name, as arrays in the units of the file; names may have units in brackets, `force [kN]`."""
-    header, head, lines = read_table(path)
-    header = [name if name in names else UNIT.sub("", name) for name in header]
+    """Columns of a CSV file by name, as arrays in SI units; names may have units beside them, `force [kN]`."""
+    headings, head, lines = read_table(path)
+    header, of = zip(*(named(heading, names) for heading in headings))
     for name in names:
         if name not in header:
             near = difflib.get_close_matches(name, header, n=3) or header[:8]
@@ -32,7 +32,10 @@ def read_columns(path, names):
     table = [[number_in(path, line, header[k], row[k]) for k in columns] for line, row in lines]
     if not table:
         raise BadFile(f"{path}: only a header; rows are needed")
-    return list(np.array(table).T)
+    try:
+        return [_in_si(name, values, of[k]) for name, k, values in zip(names, columns, np.array(table).T)]
+    except UnitError as error:
+        raise BadFile(f"{path}:{head}: {error}") from None
 
 
 def add_command(commands):
@@ -93,8 +96,18 @@ def told(column, options):
 
 def unit_of(name):
     """SI unit of a variable of the FMU by its name, or what to take for it."""
-    known = {"time": "s", "position": "m", "height": "m"}
-    return known.get(name) or guessed(name) or f"unit of {name}"
+    return KNOWN.get(name) or guessed(name) or f"unit of {name}"
+
+
+def _in_si(name, values, unit):
+    """Values of a column in SI units; where neither its name nor its unit says these, as they are."""
+    expected = KNOWN.get(name) or guessed(name)
+    if unit is None or expected:
+        return converted(name, values, unit, expected)
+    try:
+        return units.unit_of(unit).to_si(values)
+    except UnitError:
+        return values
 
 
 def save(path, draw):
@@ -113,7 +126,7 @@ def _signal(options):
     """Column of time or position and column of values, from where they count."""
     if options.command == "octaves" and options.over == "time" and options.column == FORCE:
         with open(options.file, encoding="utf-8-sig", errors="replace") as file:
-            if {"position", "height"} <= {name.strip() for name in file.readline().split(",")}:
+            if {"position", "height"} <= {headed(name)[0] for name in file.readline().split(",")}:
                 options.over, options.column = "position", "height"
     over, values = read_columns(options.file, (options.over, options.column))
     kept = over >= options.begin

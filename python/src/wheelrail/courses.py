@@ -13,6 +13,7 @@ from numbers import Number
 
 from .samples import samples_of
 from .smooth import Spline
+from .units import TIMES, agreed, beside, named
 from .values import Refused, short, to_fmu
 
 ROUNDING = 1e-9  # s: shorter times than this are rounding
@@ -143,14 +144,14 @@ class Function:
 
     constant, end = False, 0.0
 
-    def __init__(self, variable, function):
-        self.variable, self.function = variable, function
+    def __init__(self, variable, function, unit=None):
+        self.variable, self.function, self.unit = variable, function, unit
         self.known = (None, None)
 
     def at(self, time):
         """The value at `time` [s]."""
         try:
-            return to_fmu(self.variable, self.function(time))
+            return to_fmu(self.variable, self.function(time), self.unit)
         except Refused as refused:
             raise Refused(f"at {time:g} s {refused}") from None
 
@@ -229,30 +230,37 @@ def straight(points):
 
 
 def courses_of(fmu, inputs):
-    """Courses of inputs by name: from constants, functions of the time, and samples in any form that `samples` knows."""
-    variables = {name: _input(fmu, name) for name in inputs}
-    sampled = {}
-    found = {}
-    for name, given in inputs.items():
+    """Courses of inputs by name: from constants, functions of the time, and samples in any form that `samples` knows. Names and values may
+    have units beside them."""
+    asked, found = {}, {}
+    for text, given in inputs.items():
+        name, unit = named(text, fmu.variables)
+        if name in asked:
+            raise Refused(f"{name} is given twice: leave one of them out")
+        asked[name] = _input(fmu, name), given, unit
+    for name, (variable, given, unit) in asked.items():
         if callable(given):
-            found[name] = Function(variables[name], given)
+            found[name] = Function(variable, given, unit)
         elif is_one_value(given):
-            found[name] = Constant(to_fmu(variables[name], given))
-        else:
-            sampled[name] = given
-    for name, (times, values) in samples_of(sampled).items():
-        kind = Heights if name == HEIGHT else Samples
-        found[name] = kind(variables[name], times, [to_fmu(variables[name], value) for value in values])
-    return {name: found[name] for name in inputs}
+            found[name] = Constant(to_fmu(variable, given, unit))
+    sampled = {name: given for name, (_, given, _) in asked.items() if name not in found}
+    for name, (times, values, own) in samples_of(sampled).items():
+        variable, _, unit = asked[name]
+        kind, unit = Heights if name == HEIGHT else Samples, agreed(name, (unit, own))
+        found[name] = kind(variable, times, [to_fmu(variable, value, unit) for value in values])
+    return {name: found[name] for name in asked}
 
 
 def is_one_value(given):
     """Whether an input is one value in place of a course."""
+    given, _ = beside(given)
     return given is None or isinstance(given, (str, bytes, Number)) or getattr(given, "shape", None) == ()
 
 
 def _input(fmu, name):
     """The variable of an input."""
+    if str(name).lower() in TIMES and name not in fmu.variables:
+        raise Refused(f"{name} is no input: write (times, values) for each input, or give a table, which may have a column of times")
     variable = fmu.variable(name)
     if variable.causality != "input":
         where = "give it in parameters" if variable.causality == "parameter" else "it can be recorded only"

@@ -20,6 +20,7 @@ import numpy as np
 from .files import BadFile
 from .output import write_rows
 from .records import load
+from .units import in_si
 
 if TYPE_CHECKING:
     import xarray
@@ -129,7 +130,10 @@ def report(run: xarray.Dataset, *, steel: Mapping[str, float] = STEEL, base: flo
     missing = [name for name in (*OUTPUTS, *PROFILES) if name not in run]
     if missing:
         raise NoDamage(f"the record has no {missing[0]}: make it with depth=True and all outputs")
+    run = in_si(run)
     last = {name.split(".")[1]: run[name].values[-1] for name in OUTPUTS}
+    if unknown := [name for name, value in last.items() if not np.isfinite(value)]:
+        raise NoDamage(f"the record has no value of damage.{unknown[0]} at its end: cut it off where its values end")
     peak, martensite = (run[name].values[-1] for name in PROFILES)
     whole = {name: int(last.pop(name)) for name in ("flats", "hot_places")}
     numbers = {name: float(value) for name, value in last.items() if name not in ("peak_temperature", "hottest_point")}

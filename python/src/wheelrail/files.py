@@ -11,6 +11,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from .tables import BadFile, number_in, read_table, text_of
+from .units import UnitError, converted, headed, named
 from .warn import warn
 
 FAR = 10.0  # times its usual size a value is doubtful
@@ -22,7 +23,7 @@ class Real:
     """A number from `low` to `high`. Without a `default` it must be given, unless it is `optional`: then it may be None.
 
     `usual` is its usual size, and `others` are units in which it may be meant by mistake: name, factor, and what is added in the
-    unit of the field, such as `("km/h", 1 / 3.6, 0.0)`. A value far from its usual size is doubted.
+    unit of the field, such as `("km/h", 1 / 3.6, 0.0)`. A value far from its usual size is doubted. A `relative` one is a difference.
     """
 
     low: float
@@ -34,6 +35,7 @@ class Real:
     optional: bool = False
     usual: float | None = None
     others: tuple = ()
+    relative: bool = False
 
     def check(self, value):
         """What is wrong with it."""
@@ -172,17 +174,21 @@ def read_json(path, schema):
 def read_csv(path, columns, wrong=lambda row, before: None):
     """The columns of a CSV file: name to list of values. The first line names them; all of `columns` without default must
     be there, no others. `wrong` says what is wrong with a row, name to value, after the row before it, if there is one."""
-    names, head, rows = read_table(path)
+    headings, head, rows = read_table(path)
+    names, units = zip(*(named(heading, columns) for heading in headings))
     for name in names:
         if name not in columns:
             raise BadFile(f"{path}:{head}: unknown column {name!r}{meant(name, columns)}")
+        if names.count(name) > 1:
+            raise BadFile(f"{path}:{head}: column {name!r} twice; leave one of them out")
+    unit_of = dict(zip(names, units))
     for name, field in columns.items():
         if name not in names and _needed(field):
             raise BadFile(f"{path}:{head}: column {name!r} is missing ({field.about})")
     found, doubted = [], set()
     for line, cells in rows:
         given = dict(zip(names, cells))
-        entry = lambda name, field: _entry(path, line, name, field, given[name]) if name in given else field.default
+        entry = lambda name, field: _entry(path, line, name, field, given[name], unit_of[name]) if name in given else field.default
         row = {name: entry(name, field) for name, field in columns.items()}
         if problem := wrong(row, found[-1] if found else None):
             raise BadFile(f"{path}:{line}: {problem}")
@@ -343,13 +349,20 @@ def doubt_of(field, value):
 
 def meant(name, known):
     """A hint at a name that resembles the unknown one."""
+    base, unit = headed(name)
+    if unit is not None and base in known:
+        return f": write {base!r}, and its value in {getattr(known[base], 'unit', '') or 'no unit' if hasattr(known, 'items') else 'SI units'}"
     close = difflib.get_close_matches(name, known, n=1)
     return f"; did you mean {close[0]!r}?" if close else f"; known: {', '.join(known)}"
 
 
-def _entry(path, line, name, field, text):
-    """One entry of a CSV file."""
+def _entry(path, line, name, field, text, unit):
+    """One entry of a CSV file, in a unit that the heading of its column may name."""
     value = number_in(path, line, name, text) if isinstance(field, Real) else text
+    try:
+        value = converted(name, value, unit, getattr(field, "unit", ""), getattr(field, "relative", False))
+    except UnitError as error:
+        raise BadFile(f"{path}:{line}: {error}") from None
     wrong = field.check(value)
     if wrong:
         raise BadFile(f"{path}:{line}: {name} {wrong}")

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .records import library
+from .units import in_si
 
 if TYPE_CHECKING:
     import xarray
@@ -56,6 +57,7 @@ def patch(run: xarray.Dataset, *, along: int = 81, across: int = 41) -> xarray.D
     xarray = library("xarray")
     if "patch.pressure" not in run or "line.position" not in run:
         raise NoPatch("the record has no patch: make it with patch=True")
+    run = in_si(run)
     source = {name: run[f"patch.{name}"].values for name in QUANTITIES if f"patch.{name}" in run}
     nodes, position, half = run["x"].values, run["line.position"].values, run["line.half_length"].values
     side = _sides(run, position)

@@ -21,6 +21,8 @@ from fmpy.model_description import ScalarVariable
 from .calls import Calls, Message
 from .folder import TemporaryFolder
 from .instances import scalars, unloaded
+from .times import after
+from .units import named
 from .values import Refused, check_names, kind, plain, saved_state, short, to_fmu
 from .warn import warn
 
@@ -71,6 +73,18 @@ class Fmu:
             close = difflib.get_close_matches(name, self.variables, n=1)
             raise Refused(f"the FMU has no variable {name}" + "".join(f"; did you mean {other}?" for other in close))
         return self.variables[name]
+
+    def settings(self, values: Mapping[str, object], rate: bool = False) -> list[tuple[ScalarVariable, float | int | str]]:
+        """Variables and their values as the FMU wants them, of values by names, which may have units behind them
+        (`drive.velocity [km/h]`); `rate` says that they are changes in a second."""
+        found = {}
+        for text, value in values.items():
+            name, unit = named(text, self.variables)
+            variable = self.variable(name)
+            if name in found:
+                raise Refused(f"{name} is given twice: leave one of them out")
+            found[name] = variable, to_fmu(variable, value, unit, rate)
+        return list(found.values())
 
     def profiles(self) -> list[str]:
         """Names of the quantities of `Wheel.profile`."""
@@ -164,7 +178,7 @@ class Instance:
         self._say()
 
     def _set(self, values):
-        given = [(variable, to_fmu(variable, values[variable.name])) for variable in map(self.fmu.variable, values)]
+        given = self.fmu.settings(values)
         for variable, value in given:
             if variable.type != "Real":
                 self._call(self._access("set", variable), [variable.valueReference], [value])
@@ -175,7 +189,7 @@ class Instance:
     def set_rates(self, values: Mapping[str, float]) -> None:
         """Sets time derivatives of real inputs for the next step only: they ramp instead of holding their values."""
         check_names(values, "set_rates")
-        given = [(variable, to_fmu(variable, values[variable.name])) for variable in map(self.fmu.variable, values)]
+        given = self.fmu.settings(values, rate=True)
         for variable, _ in given:
             if variable.type != "Real":
                 raise Refused(f"{variable.name} is a choice, which has no rate")
@@ -226,11 +240,11 @@ class Instance:
         values = self.get(*points)
         return values if len(points) > 1 else [values]
 
-    def step(self, h: float) -> None:
-        """Advances by `h` seconds."""
+    def step(self, h: float, end: float | None = None) -> None:
+        """Advances by `h` seconds, to the time `end` [s] where that is known better than by their sum."""
         if not isinstance(h, Real):
             raise ValueError(f"step({short(h)}): expected a number of seconds")
-        self.advance(h)
+        self.advance(h, end)
         for recorder in self._recorders:
             recorder.stepped()
         self._say()
@@ -240,10 +254,10 @@ class Instance:
         for recorder in self._recorders:
             recorder.sample()
 
-    def advance(self, h: float) -> None:
-        """Advances by a part of `h` seconds of a step; records do not count it."""
+    def advance(self, h: float, end: float | None = None) -> None:
+        """Advances by a part of `h` seconds of a step, to the time `end` [s] if it is known; records do not count it."""
         self._call(self.slave.doStep, self.time, h)
-        self.time += h
+        self.time = after(self.time, h) if end is None else end
 
     def save(self) -> tuple[object, float]:
         """A handle for `restore`; free it with `forget`."""

@@ -21,6 +21,7 @@ from .files import BadFile
 from .fmu import Fmu, Wheel, default_path
 from .output import write
 from .records import attributes, library
+from .units import UnitError, beside, converted, headed
 from .values import Refused, check_names, short
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ class OperatingPoint(Wheel):
     """A wheel in stationary rolling with prescribed speeds, which stays before its first step."""
 
     def __init__(self, fmu: Fmu, parameters: Mapping[str, object], inputs: Mapping[str, object]):
-        wrong = next((name for name in (*parameters, *inputs) if name in FOLLOWS), None)
+        wrong = next((name for name in (*parameters, *inputs) if headed(name)[0] in FOLLOWS), None)
         if wrong:
             raise Refused(f"{wrong} follows from velocity and creepage and cannot be set")
         choices = {name: value for name, value in PRESCRIBED.items() if name in fmu.variables}
@@ -110,10 +111,11 @@ def steady(
 
 def _speed(wheel: Wheel, velocity: float | None) -> float:
     """The velocity [m/s], which is none of standstill."""
-    speed = wheel.get("initial.velocity") if velocity is None else velocity
+    speed, unit = beside(wheel.get("initial.velocity") if velocity is None else velocity)
+    speed = speed.item() if getattr(speed, "shape", None) == () else speed
     if isinstance(speed, bool) or not isinstance(speed, (int, float, np.number)) or not np.isfinite(speed) or abs(speed) < 0.02:
         raise ValueError(f"velocity = {short(speed)} is no velocity in m/s of a wheel that travels")
-    return float(speed)
+    return float(converted("velocity", speed, unit, "m/s"))
 
 
 def _range(wheel: OperatingPoint, speed: float) -> np.ndarray:
@@ -128,8 +130,11 @@ def _range(wheel: OperatingPoint, speed: float) -> np.ndarray:
 
 def _creepages(given: float | Iterable[float]) -> np.ndarray:
     """Creepages as an array; each must be one that a travelling wheel can have."""
+    given, unit = beside(given)
     try:
-        values = np.atleast_1d(np.asarray(given, float))
+        values = converted("creepage", np.atleast_1d(np.asarray(given, float)), unit, "1")
+    except UnitError:
+        raise
     except (TypeError, ValueError):
         raise ValueError(f"creepage = {short(given)} is no number and no list of numbers") from None
     wrong = [value for value in values.ravel() if not abs(value) < 2.0]

@@ -5,6 +5,8 @@ from statistics import median
 from .warn import warn
 
 GAP = 10.0  # usual distances of samples from which on a distance is a gap
+SHORT, NEAR = 0.01, 10.0  # share of a track, and mean length of sections [m], below which it is doubtful that these are in metres
+CHAINAGE = 10.0  # times as large are both for a track that has chainages, which are often written in km
 FEW = 10  # samples that have no usual distance
 
 
@@ -21,6 +23,12 @@ def check_reach(track, path):
         warn(
             f"{track.path}: all sections, from {place[0]:g} to {place[-1]:g} m, begin behind {way}: only the last one, "
             f"{condition[-1]!r}, has an effect; {chainage}"
+        )
+    wide = CHAINAGE if begin else 1.0
+    if len(place) > 1 and begin < place[-1] < begin + wide * SHORT * track.length and place[-1] - place[0] < wide * NEAR * (len(place) - 1):
+        warn(
+            f"{track.path}: the last section, {condition[-1]!r} from {place[-1]:g} m on, has nearly all of {way}; if positions are in km, call "
+            f"the column position [km]{f', and write begin in m: {1e3 * begin:g}' if begin else ''}"
         )
     if track.profile and not (track.profile.position[0] < end and track.profile.position[-1] > begin):
         first, last = track.profile.position[0], track.profile.position[-1]

@@ -249,7 +249,7 @@ def load(path: str | Path) -> xarray.Dataset:
     try:
         if path.suffix == ".nc":
             library("h5netcdf")
-            return xarray.load_dataset(path, engine="h5netcdf", decode_timedelta=False)
+            return xarray.load_dataset(path, engine="h5netcdf")  # spans of time are such, numbers of seconds stay numbers
         library("pyarrow")
         frame = library("pandas").read_parquet(path, engine="pyarrow")
     except (OSError, ValueError) as failure:
@@ -282,6 +282,25 @@ def _checked(run, call):
 def _first_line(failure):
     """The first line of what went wrong."""
     return (str(failure).splitlines() or [type(failure).__name__])[0]
+
+
+def of_arrow(given: object) -> pandas.DataFrame:
+    """The DataFrame of a table of polars, pyarrow, DuckDB or whatever else hands over a stream of Arrow (`__arrow_c_stream__`); units in
+    the metadata of its columns are kept in `attrs`."""
+    try:
+        pyarrow = library("pyarrow")
+    except ImportError as failure:
+        raise ImportError(f"inputs of {type(given).__module__}: {failure}; or make a table of pandas of them") from failure
+    library("pandas")
+    try:
+        made = pyarrow.table(given)
+        frame = made.to_pandas()
+    except (pyarrow.ArrowException, TypeError, ValueError) as failure:
+        raise ValueError(f"{short(given)} is no table of inputs: {_first_line(failure)}") from failure
+    texts = {field.name: field.metadata or {} for field in made.schema}
+    units = {name: (about.get(b"units") or about.get(b"unit") or b"").decode() for name, about in texts.items()}
+    frame.attrs = {"units": units} | frame.attrs
+    return frame
 
 
 def library(name: str) -> ModuleType:

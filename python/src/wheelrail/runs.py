@@ -13,6 +13,9 @@ from typing import TYPE_CHECKING
 
 from .courses import HEIGHT, RATE, courses_of, parts
 from .fmu import Fmu, Wheel
+from .records import of_arrow
+from .times import at
+from .units import TIMES, agreed, beside, converted, headed
 from .values import check_names, short
 from .warn import warn
 
@@ -44,8 +47,9 @@ def simulate(
 
     `inputs` are by name constants, functions of the time, or samples over time [s] in any of the forms of `samples`: a dict, pairs,
     a pandas Series. Between samples they are linear, choices hold. Two samples at one time make a jump, at that time whatever
-    the step is; what varies within a step acts with its mean (`courses`). A DataFrame has a column for every input, over its
-    index or its column `time`, as a scenario of the command line.
+    the step is; what varies within a step acts with its mean (`courses`). A table (pandas, or polars, pyarrow and others that speak
+    Arrow) has a column for every input, over its index or its column `time`, as a scenario of the command line. A unit beside a
+    value or behind a name (`drive.velocity [km/h]`) is used, or refused by its name; without one values are in SI units.
     Without `stop` the run ends with the last of these times, or at 1 s. `outputs`, `profiles`, `depth`, `patch` and `every`
     say what is recorded, see `records.Recorder`. `fmu` is an opened `Fmu`, the path of one, or `default_path()`.
 
@@ -90,17 +94,15 @@ def _advance(wheel, courses, stop, step, progress):
     # None: where there is a terminal.
     with tqdm(total=stop, desc="run", bar_format=BAR, disable=None if progress else True) as bar:
         for k in range(steps):
-            wheel.time = k * step
             rest = stop - wheel.time
             h = rest if rest < (1.0 - ROUNDING) * step else step
             *first, last = parts(moving.values(), wheel.time, wheel.time + h)
             for end in first:
                 _prescribe(wheel, moving, end)
-                wheel.advance(end - wheel.time)
-                wheel.time, h = end, last - end
+                wheel.advance(end - wheel.time, end)
+                h = last - end
             _prescribe(wheel, moving, last)
-            wheel.step(h)
-            wheel.time = stop if k == steps - 1 else (k + 1) * step
+            wheel.step(h, stop if k == steps - 1 else at(k + 1, step))
             bar.update(wheel.time - bar.n)
 
 
@@ -117,19 +119,30 @@ def _prescribe(wheel, moving, end):
 
 
 def _by_name(inputs):
-    """Inputs by name; those of a table are over its column `time`, if it has one."""
+    """Inputs by name. A table, of pandas or of whatever speaks Arrow, has a column for each, over its index or its column of times."""
     if inputs is None:
         return {}
-    if hasattr(inputs, "set_index") and "time" in inputs.columns:
-        inputs = inputs.set_index("time")
-    if hasattr(inputs, "columns") and not inputs.columns.is_unique:
+    if hasattr(inputs, "__arrow_c_stream__") and not hasattr(inputs, "iloc"):
+        inputs = of_arrow(inputs)
+    if not hasattr(inputs, "iloc") or not hasattr(inputs, "columns"):
+        return inputs
+    if not inputs.columns.is_unique:
         raise ValueError(f"inputs have the column {inputs.columns[inputs.columns.duplicated()][0]!r} twice")
-    return inputs
+    times = "time" if "time" in inputs.columns else None
+    if times is None and inputs.index.name is None:
+        times = next((column for column in inputs.columns if str(headed(column)[0]).lower() in TIMES), None)
+    columns = {name: inputs[name] for name in inputs.columns if name != times}
+    if times is None:
+        return columns
+    over, unit = beside(inputs[times])
+    unit = agreed("time", (headed(times)[1], unit)) or "s"
+    return {name: column.set_axis(over.array).rename_axis(f"time [{unit}]") for name, column in columns.items()}
 
 
 def _seconds(name, value, range_, zero=False):
     """A length of time."""
+    value, unit = beside(value)
     value = value.item() if getattr(value, "shape", None) == () else value
     if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value) or value < 0.0 or value == 0.0 and not zero:
         raise ValueError(f"{name} = {short(value)} is not a number of seconds, {range_}")
-    return float(value)
+    return float(converted(name, value, unit, "s"))

@@ -7,7 +7,8 @@
 | `[(0.0, 1e5), (0.5, 8e4)]`, an array of two columns | the first of each pair |
 | a Series, a DataFrame of one column, a DataArray | its index or coordinate |
 
-Times are numbers of seconds, spans of time (timedelta), or dates and periods, which count from the earliest one of all inputs.
+Times are numbers of seconds, or of a unit that an index or attribute names, spans of time (timedelta), or dates and periods, which
+count from the earliest one of all inputs. Values may have a unit beside them.
 """
 
 from decimal import Decimal
@@ -15,6 +16,8 @@ from numbers import Real
 
 import numpy as np
 
+from .records import library
+from .units import agreed, behind, beside, converted
 from .values import short
 
 LATEST = 1e8  # s: a later time is a date, or counts something else than seconds
@@ -22,45 +25,45 @@ SPANS = ("m", "M")  # numpy's kinds of spans of time and of dates
 
 
 def samples_of(inputs):
-    """Times [s] and values by name; dates of all inputs count from the earliest one."""
+    """Times [s], values and their unit, None where nothing says it, by name; dates of all inputs count from the earliest one."""
     found = {name: _columns(name, given) for name, given in inputs.items()}
-    found = {name: (_index(name, times), values) for name, (times, values) in found.items()}
-    dates = {name: times for name, (times, _) in found.items() if getattr(times.dtype, "kind", "") == "M"}
+    found = {name: (_index(name, times), values, unit) for name, (times, values, unit) in found.items()}
+    dates = {name: times for name, (times, *_) in found.items() if getattr(times.dtype, "kind", "") == "M"}
     if len({times.tz is None for times in dates.values()}) > 1:
         raise ValueError(f"{', '.join(dates)}: some dates have a time zone, others do not; give all or none of them one")
     begin = min((times.min() for times in dates.values()), default=None)
-    return {name: (_seconds(name, times, begin), values) for name, (times, values) in found.items() if _fit(name, times, values)}
+    return {name: (_seconds(name, times, begin), values, unit) for name, (times, values, unit) in found.items() if _fit(name, times, values)}
 
 
 def _columns(name, given):
-    """Times as they are given, and a list of values."""
-    if hasattr(given, "to_series"):  # a DataArray
-        given = _of_array(name, given)
+    """Times as they are given, a list of values, and their unit."""
     if hasattr(given, "columns") and hasattr(given, "index"):  # a DataFrame
         if len(given.columns) != 1:
             raise ValueError(f"{name} is a table of {len(given.columns)} columns: choose one, such as table[{short(given.columns[0])}]")
         given = given.iloc[:, 0]
+    given, unit = beside(given)
+    if hasattr(given, "to_series"):  # a DataArray
+        return *_of_array(name, given), unit
     if not getattr(given, "size", 1) or isinstance(given, dict) and not given:
         raise ValueError(f"{name} is empty: expected a value at one time at least")
     if hasattr(given, "index") and hasattr(given, "to_numpy"):  # a Series
-        return given.index, list(given)
+        return given.index, list(given), unit
     if hasattr(given, "items"):
-        return list(given.keys()), list(given.values())
+        return list(given.keys()), list(given.values()), unit
     if isinstance(given, (set, frozenset)):
         raise ValueError(f"{name} = {short(given)} is a set, which has no order: give a list of pairs")
     if hasattr(given, "__next__"):
         given = list(given)
-    return _of_sequence(name, given)
+    times, values = _of_sequence(name, given)
+    values, of = beside(values)
+    return times, list(values), agreed(name, (unit, of))
 
 
 def _of_array(name, given):
-    """The Series of a DataArray over the time."""
+    """Times and values of a DataArray over the time."""
     if given.ndim != 1 or given.dims[0] not in given.coords:
         raise ValueError(f"{name} is an array over {given.dims}: expected one dimension, with a coordinate of times [s]")
-    unit = given.coords[given.dims[0]].attrs.get("units", "s")
-    if unit not in ("s", "second", "seconds"):
-        raise ValueError(f"{name} is over {given.dims[0]} in {unit!r}: expected times in s")
-    return given.to_series()
+    return given.coords[given.dims[0]], list(given.values)
 
 
 def _of_sequence(name, given):
@@ -68,6 +71,8 @@ def _of_sequence(name, given):
     wrong = f"{name} = {short(given)} is no value, no pair of times and values, no list of such pairs, and no function of the time"
     if not isinstance(given, (tuple, list, np.ndarray)) or not len(given):
         raise ValueError(wrong)
+    if isinstance(given, tuple):  # Arrow's arrays have no numbers of Python in them
+        given = tuple(part.to_pylist() if hasattr(part, "to_pylist") else part for part in given)
     if hasattr(given, "dtype") and given.ndim != 2 or not all(hasattr(part, "__len__") and not isinstance(part, str) for part in given):
         raise ValueError(wrong)
     pairs = all(len(part) == 2 for part in given)
@@ -81,7 +86,7 @@ def _of_sequence(name, given):
                 "or [(t1, v1), (t2, v2)]"
             )
     if len(given) == 2:
-        return given[0], list(given[1])
+        return given[0], given[1]
     if not pairs:
         raise ValueError(wrong)
     return [part[0] for part in given], [part[1] for part in given]
@@ -89,20 +94,19 @@ def _of_sequence(name, given):
 
 def _index(name, times):
     """Times as an index of pandas, whose kinds tell numbers, spans and dates apart."""
-    import pandas
-
+    pandas = library("pandas")
     if not len(times):
         raise ValueError(f"{name} is empty: expected a value at one time at least")
-    named = getattr(times, "name", None)
-    unit = _unit(named) or getattr(times, "units", None)
-    if unit is not None and str(unit) not in ("s", "second", "seconds"):
-        raise ValueError(f"{name}: times are in {unit}: expected seconds")
+    times, unit = beside(times)
+    unit = unit or behind(getattr(times, "name", None))
+    if isinstance(times, (list, tuple)):
+        times = [converted(f"{name}: time", *beside(time), "s") for time in times]
     if np.ma.is_masked(times):
         raise ValueError(f"{name}: some times are masked: leave such samples out")
     if isinstance(times, pandas.MultiIndex):
         raise ValueError(f"{name}: its index has {times.nlevels} levels: expected one of times; `droplevel` or `reset_index` makes it")
     try:
-        index = pandas.Index(times)
+        index = times.to_index() if hasattr(times, "to_index") else pandas.Index(times)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name}: {short(times)} are no times: {error}") from None
     if isinstance(index, pandas.PeriodIndex):
@@ -117,14 +121,7 @@ def _index(name, times):
             f"{name}: times are {short(list(index[:3]))}, neither seconds, nor spans of time, nor dates; `pandas.to_numeric`, "
             "`to_timedelta` or `to_datetime` make such of texts"
         )
-    return index
-
-
-def _unit(named):
-    """The unit in the name of an index, such as `time [ms]`; None without."""
-    if isinstance(named, str) and named.rstrip().endswith(("]", ")")):
-        return named.rstrip()[:-1].replace("(", "[").rpartition("[")[2].strip()
-    return None
+    return index if index.dtype.kind in SPANS else pandas.Index(converted(f"{name}: time", index, unit, "s"))
 
 
 def _fit(name, times, values):

@@ -16,6 +16,7 @@ from .rail_map import RailLaw, RailMap
 from .reach import check_gap, check_reach
 from .schemas import BRAKE, PROFILE, SCENARIO, SECTIONS, TRACK, VEHICLE
 from .smooth import Spline
+from .units import headed
 from .values import Refused, to_fmu
 from .warn import warn
 
@@ -40,6 +41,8 @@ def field_of(path):
             if not rest:
                 break
         elif not isinstance(schema, dict) or name not in schema:
+            if headed(path)[0] != path and not isinstance(field := field_of(headed(path)[0]), str):
+                return f"has a unit in its name: write {headed(path)[0]!r}, and its values in {getattr(field, 'unit', '') or 'no unit'}"
             close = difflib.get_close_matches(path, paths(), n=1)
             known = "it is a key of the scenario, or vehicle, brake, track or wheel, a dot and a key of that file"
             return f"is unknown; {f'did you mean {close[0]!r}?' if close else known}"
@@ -269,9 +272,11 @@ def check_wheel(scenario, known):
 
 def _beyond(row, before):
     """What is wrong with the position of a row after another one."""
-    if before and row["position"] <= before["position"]:
-        return f"position {row['position']:g} m is not beyond {before['position']:g} m"
-    return None
+    if not before or row["position"] > before["position"]:
+        return None
+    place, last = row["position"], before["position"]
+    advice = f"; they rise in the direction of travel: where chainages fall, write them negative, {-last:g} before {-place:g}, and begin of the track likewise"
+    return f"position {place:g} m is not beyond {last:g} m{advice if place < last else ''}"
 
 
 def heights(track):

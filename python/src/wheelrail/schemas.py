@@ -133,7 +133,7 @@ SECTIONS = {
     ),
     "temperature": Real(
         -100, 500, "K", "of the rail over the reference, 20 degC unless thermal.reference is set: 0 is a rail of 20 degC", 0.0,
-        usual=25.0, others=ABSOLUTE,
+        usual=25.0, others=ABSOLUTE, relative=True,
     ),
 }
 

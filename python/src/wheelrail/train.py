@@ -29,6 +29,7 @@ from .fmu import Fmu
 from .own import fresh_modules
 from .rail_map import OffTheMap, RailMap
 from .team import Team
+from .times import after
 from .values import Refused
 from .vehicle import AXLES, GRAVITY, Coach
 from .warn import Once, collected
@@ -118,7 +119,7 @@ class Contacts:
         ]
         before = self.seen
         self.seen = self.team.map(lambda k: self._stepped(k, h, drives[k]), range(len(self.wheelsets)))
-        self.time += h
+        self.time = after(self.time, h)
         for axle, seen in enumerate(self.seen):
             self._leave(axle, before[axle] if before else None, seen, sand[axle])
         return self.seen

@@ -7,6 +7,7 @@ from numbers import Integral, Real
 
 from fmpy.model_description import ScalarVariable
 
+from .units import UnitError, agreed, beside, converted
 
 # What a value that is no number at all should have been.
 NUMBERS = {"Boolean": "True or False", "Integer": "a whole number", "Enumeration": "the name or number of a choice"}
@@ -34,9 +35,11 @@ def check_names(values: object, call: str) -> None:
         raise ValueError(f"{call}({short(values)}): expected names and values, such as {{'drive.load': 8e4}}")
 
 
-def to_fmu(variable: ScalarVariable, value: object) -> float | int | str:
-    """A value as the variable wants it."""
-    name, unit = variable.name, f" [{variable.unit}]" if variable.unit else ""
+def to_fmu(variable: ScalarVariable, value: object, unit: str | None = None, rate: bool = False) -> float | int | str:
+    """A value as the variable wants it, of a number in a `unit`, or with one beside it; `rate` is its change in a second."""
+    name, own = variable.name, variable.unit or ""
+    expected = f"{own or 1}/s" if rate else own
+    value, brought = beside(value)
     if getattr(value, "shape", None) == ():
         value = value.item()
     if variable.type == "String":
@@ -49,7 +52,12 @@ def to_fmu(variable: ScalarVariable, value: object) -> float | int | str:
             raise Refused(f"{name} = {value!r} is none of {', '.join(items)}")
         return 1 + items.index(value)
     if not isinstance(value, Real):
-        raise Refused(f"{name} = {short(value)} is not {NUMBERS.get(variable.type, 'a number' + unit)}")
+        raise Refused(f"{name} = {short(value)} is not {NUMBERS.get(variable.type, 'a number' + (f' [{expected}]' if expected else ''))}")
+    try:
+        relative = rate or bool(getattr(variable.declaredType, "relativeQuantity", None))  # fmpy misses that of a variable itself
+        value = converted(name, value, agreed(name, (unit, brought)), expected, relative, "" if rate else variable.displayUnit or "")
+    except UnitError as error:
+        raise Refused(str(error)) from None
     if variable.type == "Real":
         return float(value)
     if not isinstance(value, Integral) and not float(value).is_integer():

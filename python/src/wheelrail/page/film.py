@@ -24,11 +24,18 @@ READINGS = (
 )  # fmt: skip
 
 
+def most_of(rows):
+    """The largest value of each row; of rows without any the least of them all, or 0."""
+    known = np.isfinite(rows).any(axis=1)
+    most = np.where(np.isfinite(rows), rows, -np.inf).max(axis=1)
+    return np.where(known, most, most[known].min() if known.any() else 0.0)
+
+
 def chosen(time, values, most=FRAMES):
     """Indices of at most `most` rows, as dense in time as they were recorded, and those of the largest value of each quantity."""
     if len(time) <= most:
         return np.arange(len(time))
-    peaks = {int(np.nanargmax(np.nanmax(np.abs(v), axis=1))) for v in values if np.isfinite(v).any()}
+    peaks = {int(np.argmax(most_of(np.abs(v)))) for v in values if np.isfinite(v).any()}
     even = np.linspace(0, len(time) - 1, most - len(peaks)).round().astype(int)
     return np.array(sorted(peaks | set(even.tolist())))
 
@@ -44,7 +51,7 @@ def of_run(run):
         kept = chosen(run.lines.time, shown_most)
         time = run.lines.time[kept]
         film = {"time": rounded(time, 7), "of": len(run.lines.time), "window": None, "readings": _readings(run, time)}
-        film["start"] = int(np.argmax(np.nanmax(shown_most[-1][kept], axis=1)))
+        film["start"] = int(np.argmax(most_of(shown_most[-1][kept])))
     return film | {"lines": above.of_run(run, np.array(film["time"], float))}
 
 
@@ -75,7 +82,7 @@ def _along(run):
     film["window"] = _window(time, known)
     film["readings"] = _readings(run, time)
     hottest = known.get("temperature_wheel", known["pressure"])
-    film["start"] = int(np.argmax(np.nanmax(hottest, axis=1)))
+    film["start"] = int(np.argmax(most_of(hottest)))
     return film
 
 
@@ -83,7 +90,7 @@ def _window(time, known):
     """Time in which the wheel is hot, with as much before and after it, if that is a small part of the run; else None."""
     if "temperature_wheel" not in known:
         return None
-    hottest = known["temperature_wheel"].max(axis=1)
+    hottest = most_of(known["temperature_wheel"])
     hot = time[hottest > hottest.min() + 0.1 * np.ptp(hottest)]
     if np.ptp(hottest) < STRIKING or np.ptp(hot) > 0.2 * np.ptp(time):
         return None

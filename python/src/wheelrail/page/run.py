@@ -6,6 +6,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .. import damage
+from ..tables import BadFile
+from ..units import UnitError, in_si, unit_of
+from ..warn import warn
+from .units import guessed
+
+PLACES = ("time", "node", "depth", "line")  # dimensions of a record
 
 
 @dataclass
@@ -80,7 +86,9 @@ def of_table(title, fmu, names, table, patch=None, about=None):
 
 
 def of_dataset(dataset):
-    """The run of an xarray Dataset as `wheelrail.records` makes them."""
+    """The run of an xarray Dataset as `wheelrail.records` makes them, in any units and with any times. `BadFile` if it is of several
+    runs, or has nothing over time."""
+    dataset = _of_one_run(dataset)
     time = np.asarray(dataset["time"].values, float)
     series, patch, fields, lines, across = {}, {}, {}, {}, {}
     at = time
@@ -104,11 +112,40 @@ def of_dataset(dataset):
         elif values.ndim == 2 and name.startswith("profile."):
             patch[name.removeprefix("profile.")] = values
             at = _axis(dataset, variable.dims[0], time)
+    if not series and not fields and not patch and not lines:
+        raise BadFile("the record has no numbers over time alone, which a page could show as curves")
     about = {name: _loaded(value) for name, value in dataset.attrs.items()}
     title = str(about.pop("title", "") or "Run")
     seen = seen_lines(time, lines)
     between = Profiles(time, across | {"x": np.asarray(dataset["x"].values, float)}) if across and seen else None
     return Run(title, time, series, seen_rows(Profiles(at, patch)), fields, about, seen, between, _damage(dataset))
+
+
+def _of_one_run(dataset):
+    """A record in SI units, without instants of which it has nothing, as those of other runs with which it was joined."""
+    if "time" not in dataset.coords or dataset["time"].ndim != 1:
+        raise BadFile("the record has no coordinate time with an instant for each of its samples")
+    try:
+        dataset = in_si(dataset)
+    except UnitError as error:
+        raise BadFile(str(error)) from None
+    apart = {name: v.dims for name, v in dataset.data_vars.items() if "time" in v.dims and not set(v.dims) <= set(PLACES)}
+    more = sorted({place for dims in apart.values() for place in dims} - set(PLACES))
+    drawn = [name for name, v in dataset.data_vars.items() if v.dims == ("time",) and v.dtype.kind in "fiub"]
+    if more and not drawn:
+        size = dataset.sizes[more[0]]
+        raise BadFile(
+            f"the record is over {more[0]} ({size}) besides time, and a page shows one run: write a page of each, such as of "
+            f"record.isel({more[0]}=0)"
+        )
+    if more:
+        warn(f"not on the page, being over {' and '.join(more)} besides time: {', '.join(apart)}")
+    for name in dataset.data_vars:
+        unit, expected = dataset[name].attrs.get("units", ""), guessed(name) if "." in name else ""
+        if unit and expected and unit_of(unit).dimension() != unit_of(expected).dimension():
+            raise BadFile(f"{name} is in {unit!r}: expected {expected}")
+    seen = [np.isfinite(dataset[name].values) for name in drawn if dataset[name].dtype.kind == "f"]
+    return dataset.isel(time=np.any(seen, axis=0)) if seen else dataset
 
 
 def _damage(dataset):

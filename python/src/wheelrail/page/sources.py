@@ -11,24 +11,14 @@ from fmpy import read_model_description
 
 from ..files import BadFile
 from ..fmu import default_path
+from ..units import UnitError, converted, headed, unit_of
 from . import stops
 from .run import Profiles, Run, Series, of_dataset, seen_lines, seen_rows
-from .units import READ
+from .units import guessed
 
 HDF, CLASSIC = b"\x89HDF", b"CDF"
 FLAGS = {"true": 1.0, "false": 0.0}
-HEADER = re.compile(r"^(?P<name>.*?)(?:\s+\[(?P<unit>[^\]]*)\])?$")
 POINT = re.compile(r"^(?P<of>profile|line)\.(?P<name>\w+)\[(?P<point>\d+)\]$")
-# Units of the FMU's variables by name, for a CSV beside which there is no FMU.
-GUESSES = (
-    (r"temperature\.|.*peak_temperature$|damage\.rail_peak$|profile\.temperature", "K"),
-    (r".*\.(force|load)|damage\.t_gamma$", "N"),
-    (r".*(moment|torque)", "N.m"), (r"heat\.|brake\.power$", "W"), (r"energy\.", "J"), (r".*pressure|profile\.shear", "Pa"),
-    (r".*velocity$|.*slip(_z)?$", "m/s"), (r".*slip_direction$", "rad"), (r"contact\.spin$", "1/m"), (r"hub\..*_power$", "W"), (r"wheel\.omega$", "rad/s"),
-    (r"wheel\.angular_acceleration$", "rad/s2"), (r"wheel\.acceleration$", "m/s2"),
-    (r".*(half_width|approach|distance|height|length|depth\w*|flattening\w*|melted|growth)$|profile\.x$", "m"),
-    (r".*(creepage|slide|adhesion|utilisation|stick_fraction|residual|friction|yielded|fi_surf)$", "1"),
-)  # fmt: skip
 
 
 def read(path, fmu=None):
@@ -48,7 +38,7 @@ def read(path, fmu=None):
         return _netcdf(path, fmu)
     header, columns = table(path)
     if stops.recognised(header):
-        return {path.stem: stops.of_columns(columns)}
+        return {path.stem: _stop(path, columns)}
     return _of_csv(path, columns, _described(fmu))
 
 
@@ -56,7 +46,7 @@ def _netcdf(path, fmu):
     try:
         import xarray
 
-        with xarray.open_dataset(path, engine="h5netcdf", decode_timedelta=False) as dataset:
+        with xarray.open_dataset(path, engine="h5netcdf") as dataset:
             loaded = dataset.load()
     except ImportError:
         raise BadFile(f"{path}: NetCDF is read by xarray, h5netcdf and h5py: pip install 'wheelrail[records]'") from None
@@ -66,7 +56,10 @@ def _netcdf(path, fmu):
         ) from error
     if "time" not in loaded.coords or loaded["time"].ndim != 1:
         raise BadFile(f"{path}: has no dimension `time`; expected a record as wheelrail.records writes them")
-    run = of_dataset(loaded)
+    try:
+        run = of_dataset(loaded)
+    except BadFile as error:
+        raise BadFile(f"{path}: {error}") from None
     _ascending(path, run.time)
     run.title = path.stem if run.title == "Run" else run.title
     mass = _vehicle_mass(fmu, run.about)
@@ -91,7 +84,7 @@ def _vehicle_mass(fmu, about):
 
 
 def table(path):
-    """Names and columns of a CSV: name to (unit or None, values in SI). Columns may say `name [unit]`."""
+    """Names and columns of a CSV: name to (unit or None, values), times in s. Columns may say `name [unit]`."""
     try:
         with open(path, newline="", encoding="utf-8-sig") as file:
             rows = [line.strip() for line in file]
@@ -100,17 +93,24 @@ def table(path):
     except UnicodeDecodeError:
         raise BadFile(f"{path}: is neither NetCDF nor a CSV of text; expected a record or `wheelrail simulate --out`") from None
     numbered = [(k, line) for k, line in enumerate(rows, start=1) if line and not line.startswith("#")]
-    names = [HEADER.match(name.strip()) for name in numbered[0][1].split(",")] if numbered else []
-    if "time" not in [name["name"] for name in names]:
+    names = [headed(name.strip()) for name in numbered[0][1].split(",")] if numbered else []
+    if "time" not in dict(names):
         raise BadFile(f"{path}:{numbered[0][0] if numbered else 1}: no column `time`; the first line names the columns")
     if len(numbered) < 3:
         raise BadFile(f"{path}: {len(numbered) - 1} lines of values; a curve needs two")
-    values, columns = _values(path, numbered[1:], len(names)), {}
-    for found, column in zip(names, values.T):
-        unit, factor, offset = READ.get(found["unit"], (found["unit"], 1.0, 0.0))
-        columns[found["name"]] = unit, factor * column + offset
+    values = _values(path, numbered[1:], len(names))
+    columns = {name: (unit, column) for (name, unit), column in zip(names, values.T)}
+    columns["time"] = "s", _in(path, "time", columns["time"], "s")
     _ascending(path, columns["time"][1])
     return list(columns), columns
+
+
+def _in(path, name, column, expected):
+    """The values of a column, a pair of unit and values, in the unit that is expected of it."""
+    try:
+        return converted(name, column[1], column[0], expected)
+    except UnitError as error:
+        raise BadFile(f"{path}: {error}") from None
 
 
 def _values(path, numbered, width):
@@ -163,21 +163,18 @@ def _described(fmu):
     return {v.name: (unit(v), v.description or "") for v in description.modelVariables}
 
 
-def guessed(name):
-    """Unit of a variable by its name, empty if that does not say."""
-    return next((unit for pattern, unit in GUESSES if re.match(pattern, name)), "")
-
-
 def _of_csv(path, columns, described):
     """The run of a CSV of `wheelrail simulate --out`."""
     time, series, points = columns.pop("time")[1], {}, {"profile": {}, "line": {}}
-    for name, (unit, values) in columns.items():
+    for name, column in columns.items():
         point = POINT.match(name)
+        known, meaning = described.get(name, (guessed(name.partition("[")[0]), ""))
         if point:
-            points[point["of"]].setdefault(point["name"], {})[int(point["point"])] = values
-            continue
-        known, meaning = described.get(name, (guessed(name), ""))
-        series[name] = Series(values, unit or known, meaning)
+            points[point["of"]].setdefault(point["name"], {})[int(point["point"])] = _in(path, name, column, known)
+        elif known or name in described:
+            series[name] = Series(_in(path, name, column, known), known, meaning)
+        else:
+            series[name] = _as_written(*column)
     patch, lines = (
         {name: np.column_stack([found[k] for k in sorted(found)]) for name, found in points[of].items()} for of in points
     )
@@ -185,16 +182,33 @@ def _of_csv(path, columns, described):
     return Run(path.stem, time, series, seen_rows(Profiles(time, patch)), about=about, lines=seen_lines(time, lines))
 
 
+def _as_written(unit, values):
+    """A quantity of which nothing else is known: in SI units if its unit is known, else as it is."""
+    try:
+        known = unit_of(unit or "")
+    except UnitError:
+        return Series(values, unit)
+    return Series(known.to_si(values), known.name() if unit else "")
+
+
 def _directory(path):
     """The stops of a directory of results: every CSV with columns of a stop, the shortest first."""
     found = {}
     for file in sorted(path.glob("*.csv")):
         with open(file, encoding="utf-8-sig", errors="replace") as opened:
-            header = [HEADER.match(name.strip())["name"] for name in opened.readline().split(",")]
+            header = [headed(name.strip())[0] for name in opened.readline().split(",")]
         if stops.recognised(header):
-            found[file.stem.removeprefix("train_").replace("_", " ")] = stops.of_columns(table(file)[1])
+            found[file.stem.removeprefix("train_").replace("_", " ")] = _stop(file, table(file)[1])
     if not found:
         raise BadFile(
             f"{path}: no CSV of a stop in it (columns time, speed, peripheral_1); expected results of `python -m wheelrail train`"
         )
     return dict(sorted(found.items(), key=lambda item: item[1].travelled()))
+
+
+def _stop(path, columns):
+    """The stop of the columns of a CSV."""
+    try:
+        return stops.of_columns(columns)
+    except UnitError as error:
+        raise BadFile(f"{path}: {error}") from None

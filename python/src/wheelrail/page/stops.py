@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import report, train
+from ..units import converted
 from .charts import chart, trace
-from .units import CELSIUS, KELVIN, KMH, PERCENT, Shown, number, shown
+from .units import CELSIUS, KMH, PERCENT, Shown, number, shown
 
 # Columns in °C of the files of `train`, and those in K of the table that they are made from.
 IN_CELSIUS = {"contact_celsius": "hottest", "tread_peak_celsius": "peak"}
@@ -50,11 +51,12 @@ def recognised(names):
 def of_columns(columns):
     """A stop of the columns of a CSV: name to (unit or None, values). Those in °C become the ones in K, unknown ones 0 K."""
     found = {}
-    for name, (_, values) in columns.items():
+    for name, (unit, values) in columns.items():
         kind, _, axle = name.rpartition("_")
         if kind in IN_CELSIUS:
-            name, values = f"{IN_CELSIUS[kind]}_{axle}", np.nan_to_num(values + KELVIN)
-        found[name] = values
+            name, unit, values = f"{IN_CELSIUS[kind]}_{axle}", "K", np.nan_to_num(converted(name, values, unit or "°C", "K"))
+        of = train.OF_VEHICLE.get(name) or train.OF_AXLE.get(name.rpartition("_")[0]) or (train.COUPLER if kind == "coupler" else None)
+        found[name] = converted(name, values, unit, of[0]) if of else values
     return Stop(found)
 
 

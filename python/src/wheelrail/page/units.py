@@ -1,5 +1,7 @@
 """Units that a person reads: kN, MPa, mm, °C and the like, from the SI units that the FMU gives."""
 
+import re
+
 import numpy as np
 
 KELVIN = 273.15  # K at 0 °C
@@ -35,9 +37,8 @@ class Shown:
 
     def text(self, value):
         """A value with its unit."""
-        if not np.isfinite(value):
-            return "–"
-        return f"{number(float(self(value)))} {self.label}".strip()
+        text = number(float(self(value)))
+        return text if text == "–" else f"{text} {self.label}".strip()
 
 
 PERCENT, KMH, CELSIUS = Shown("%", 100.0), Shown("km/h", 3.6), Shown("°C", 1.0, -KELVIN)
@@ -62,7 +63,9 @@ def shown(unit, *arrays):
 
 
 def number(value, digits=4):
-    """A number with so many digits, an exponent only where it must be."""
+    """A number with so many digits, an exponent only where it must be; a dash for one that is unknown."""
+    if not np.isfinite(value):
+        return "–"
     if value == 0.0:
         return "0"
     if 1e-3 <= abs(value) < 1e6:
@@ -73,13 +76,18 @@ def number(value, digits=4):
     return f"{mantissa}·10{str(int(exponent)).translate(RAISED)}".replace("-", "−")
 
 
-# Units in the first line of a CSV, in brackets: SI unit, factor, offset.
-READ = {
-    "°C": ("K", 1.0, KELVIN), "degC": ("K", 1.0, KELVIN), "km/h": ("m/s", 1.0 / 3.6, 0.0), "mm/s": ("m/s", 1e-3, 0.0),
-    "%": ("1", 0.01, 0.0), "kN": ("N", 1e3, 0.0), "kN m": ("N.m", 1e3, 0.0), "N m": ("N.m", 1.0, 0.0), "kN·m": ("N.m", 1e3, 0.0),
-    "N·m": ("N.m", 1.0, 0.0), "MPa": ("Pa", 1e6, 0.0), "kPa": ("Pa", 1e3, 0.0), "bar": ("Pa", 1e5, 0.0), "kW": ("W", 1e3, 0.0),
-    "kJ": ("J", 1e3, 0.0), "MJ": ("J", 1e6, 0.0), "mm": ("m", 1e-3, 0.0), "km": ("m", 1e3, 0.0), "ms": ("s", 1e-3, 0.0),
-    "l": ("m3", 1e-3, 0.0), "g": ("kg", 1e-3, 0.0), "t": ("kg", 1e3, 0.0), "rpm": ("rad/s", np.pi / 30.0, 0.0),
-    "deg": ("rad", np.pi / 180.0, 0.0),
-    "m³": ("m3", 1.0, 0.0), "m/s²": ("m/s2", 1.0, 0.0),
-}  # fmt: skip
+# Units of the FMU's variables by name, for a file beside which there is no FMU.
+GUESSES = (
+    (r"temperature\.|.*peak_temperature$|damage\.rail_peak$|profile\.temperature", "K"),
+    (r".*\.(force|load)|damage\.t_gamma$", "N"),
+    (r".*(moment|torque)", "N.m"), (r"heat\.|brake\.power$", "W"), (r"energy\.", "J"), (r".*pressure|profile\.shear", "Pa"),
+    (r".*velocity$|.*slip(_z)?$", "m/s"), (r".*slip_direction$", "rad"), (r"contact\.spin$", "1/m"), (r"hub\..*_power$", "W"), (r"wheel\.omega$", "rad/s"),
+    (r"wheel\.angular_acceleration$", "rad/s2"), (r"wheel\.acceleration$", "m/s2"),
+    (r".*(half_width|approach|distance|height|length|depth\w*|flattening\w*|melted|growth)$|profile\.x$", "m"),
+    (r".*(creepage|slide|adhesion|utilisation|stick_fraction|residual|friction|yielded|fi_surf)$", "1"),
+)  # fmt: skip
+
+
+def guessed(name):
+    """Unit of a variable by its name, empty if that does not say."""
+    return next((unit for pattern, unit in GUESSES if re.match(pattern, name)), "")

@@ -120,7 +120,8 @@ def warnings(run):
         else:
             found.append(MOMENT.sub(lambda t: f"at {number(float(t[1]))} s: ", str(entry)))
     limited = run.get("solver.limited_steps")
-    if limited is not None and limited.sum():
+    if limited is not None and np.nansum(limited):
+        limited = np.nan_to_num(limited)
         first = run.time[int(np.flatnonzero(limited)[0])]
         found.append(
             f"at {number(float(first))} s and later: {int(limited.sum())} internal steps exceed solver.tolerance, because"

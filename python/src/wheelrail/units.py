@@ -1,0 +1,288 @@
+"""Units beside values: what a person, a table or another library says a number is in, and the same number in SI units.
+
+A unit is written as a product of powers of symbols: `km/h`, `kN m`, `kN·m`, `W/(m2.K)`, `m s-1`, `°C`. Any multiple of an SI unit
+is read, and the units that railways use beside them; what is not known here is asked of pint, if that is installed. `beside` finds
+the unit that a value brings along, `named` that in a name; `converted` takes a number to SI units or refuses it by its name.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from collections.abc import Container, Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+BASES = ("kg", "m", "s", "rad", "K", "A", "mol", "cd")
+DERIVED = {"N": "kg.m/s2", "Pa": "N/m2", "J": "N.m", "W": "J/s"}  # units that stay as they are written
+ZERO = Fraction("273.15")  # K at 0 °C
+TURN = 2 * Fraction(math.pi)  # rad
+# Other symbols: how much of which SI unit one is. Those in PREFIXED, and the units above but kg, take prefixes.
+SYMBOLS = {
+    "g": (Fraction(1, 1000), "kg"), "t": (1000, "kg"), "h": (3600, "s"), "min": (60, "s"), "d": (86400, "s"), "Hz": (1, "1/s"),
+    "bar": (100_000, "Pa"), "l": (Fraction(1, 1000), "m3"), "Nm": (1, "N.m"), "Ns": (1, "N.s"), "Wh": (3600, "J"), "Ws": (1, "J"),
+    "kgf": (Fraction("9.80665"), "N"), "kp": (Fraction("9.80665"), "N"), "deg": (TURN / 360, "rad"), "rpm": (TURN / 60, "rad/s"),
+    "%": (Fraction(1, 100), "1"), "‰": (Fraction(1, 1000), "1"), "degC": (1, "K"),
+}  # fmt: skip
+PREFIXED = ("m", "s", "rad", "K", *DERIVED, "g", "bar", "l", "Nm", "Ns", "Wh", "Hz")
+PREFIXES = {"n": -9, "u": -6, "m": -3, "c": -2, "d": -1, "da": 1, "h": 2, "k": 3, "M": 6, "G": 9}
+# Words in the place of symbols.
+WORDS = {
+    "gram": "g", "meter": "m", "metre": "m", "second": "s", "sec": "s", "minute": "min", "hour": "h", "hr": "h", "day": "d", "radian": "rad",
+    "degree": "deg", "kelvin": "K", "newton": "N", "pascal": "Pa", "joule": "J", "watt": "W", "hertz": "Hz", "liter": "l", "litre": "l",
+    "tonne": "t", "percent": "%", "kmh": "km/h", "kph": "km/h",
+}  # fmt: skip
+LONG = {"nano": "n", "micro": "u", "milli": "m", "centi": "c", "kilo": "k", "mega": "M", "giga": "G"}
+NONE = ("", "1", "-", "dimensionless", "none", "unitless")  # of a number without a unit
+SPELLED = str.maketrans({"·": ".", "⋅": ".", "*": ".", "×": ".", "−": "-", "µ": "u", "μ": "u"} | {r: f"^{n}" for n, r in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")})
+CELSIUS = re.compile(r"℃|(?:°|deg(?:ree)?s?)[ _]?c(?:elsius)?\b|\bcelsius\b", re.IGNORECASE)
+TOKEN = re.compile(r"[./()]|[^\d\s.^/()+-]+|\^?[+-]?\d+")
+# A name with its unit, as people head columns: `force [kN]`, `force (kN)`, `force/kN`, `force in kN`, `force, kN`.
+HEADED = re.compile(r"^\s*(?P<name>[\w.]+(?:\[\d+\])?(?: +[\w.]+)*?)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>.*)\)|/\s*(?P<c>.+)|\s+in\s+(?P<d>.+)|,\s*(?P<e>.+))?\s*$")
+TIMES = ("time", "t")  # names of columns of times, in small letters
+
+
+class UnitError(ValueError):
+    """A unit that is not known, or not one of the quantity; the text says what is, and what was expected."""
+
+
+@dataclass(frozen=True)
+class Unit:
+    """`value × factor + offset` is in `si`, a product of powers of SI units, pairs of symbol and exponent."""
+
+    factor: Fraction
+    offset: Fraction
+    si: tuple[tuple[str, int], ...]
+
+    def dimension(self) -> tuple[int, ...]:
+        """Exponents of the bases."""
+        found = dict.fromkeys(BASES, 0)
+        for symbol, power in self.si:
+            for base, exponent in zip(BASES, unit_of(DERIVED[symbol]).dimension()) if symbol in DERIVED else [(symbol, 1)]:
+                found[base] += power * exponent
+        return tuple(found.values())
+
+    def name(self) -> str:
+        """The SI unit, as the FMU spells it."""
+        text = lambda symbol, power: symbol + (str(power) if power != 1 else "")
+        above, below = (".".join(text(s, abs(p)) for s, p in self.si if p * sign > 0) for sign in (1, -1))
+        return (above or "1") + ("/" + (f"({below})" if "." in below else below) if below else "")
+
+    def to_si(self, values: Any, relative: bool = False) -> Any:
+        """A number, or an array of them, in SI units; a `relative` one is a difference, which knows no zero."""
+        factor, offset = self.factor, 0 if relative else self.offset
+        # Whole numbers one after the other round like the number that is meant: 9 ms are .009 s.
+        return values * factor.numerator / factor.denominator + float(offset) if (factor, offset) != (1, 0) else values
+
+
+@cache
+def unit_of(text: str) -> Unit:
+    """The unit of a text; `UnitError` if nobody knows it."""
+    if text.strip().lower() in NONE:
+        return Unit(Fraction(1), Fraction(0), ())
+    spelled = CELSIUS.sub("degC", text.strip().removeprefix("Δ").removeprefix("delta_"))
+    alone = spelled == "degC" and not text.strip().startswith(("Δ", "delta_"))
+    spelled = spelled.replace("**", "^").replace("°", "deg").translate(SPELLED)
+    try:
+        tokens = TOKEN.findall(spelled)
+        if "".join(tokens) != re.sub(r"\s", "", spelled):
+            raise KeyError(text)
+        factor, si = _product(tokens)
+        if tokens:
+            raise KeyError(text)
+    except (KeyError, IndexError):
+        return _of_pint(text)
+    return Unit(factor, ZERO if alone else Fraction(0), tuple((symbol, power) for symbol, power in si.items() if power))
+
+
+def _product(tokens):
+    """Factor and powers of SI units of a product, whose tokens are taken away."""
+    factor, si, sign = Fraction(1), {}, 1
+    while tokens and tokens[0] != ")":
+        token = tokens.pop(0)
+        if token in "./":
+            sign = -1 if token == "/" else 1
+            continue
+        if token == "(":
+            of, parts = _product(tokens)
+            if tokens.pop(0) != ")":
+                raise KeyError(token)
+        else:
+            of, parts = _symbol(token)
+        power = sign * int(tokens.pop(0).lstrip("^")) if tokens and re.match(r"[\^+\-\d]", tokens[0]) and token != "1" else sign
+        factor *= of**power
+        for symbol, exponent in parts.items():
+            si[symbol] = si.get(symbol, 0) + power * exponent
+        sign = 1
+    if sign < 0:
+        raise KeyError("/")
+    return factor, si
+
+
+def _symbol(text):
+    """Factor and powers of SI units of one symbol or word."""
+    if text == "1":
+        return Fraction(1), {}
+    if text in BASES or text in DERIVED:
+        return Fraction(1), {text: 1}
+    if text in SYMBOLS:
+        factor, si = SYMBOLS[text]
+        of, parts = _product(TOKEN.findall(si))
+        return factor * of, parts
+    for prefix, ten in PREFIXES.items():
+        if text.startswith(prefix) and text.removeprefix(prefix) in PREFIXED:
+            of, parts = _symbol(text.removeprefix(prefix))
+            return Fraction(10) ** ten * of, parts
+    word = text.lower() if text.lower() in WORDS else text.lower().removesuffix("s")
+    long = next((prefix for prefix in LONG if word.startswith(prefix)), "")
+    return _product(TOKEN.findall(LONG.get(long, "") + WORDS[word.removeprefix(long)]))
+
+
+def _of_pint(text):
+    """The unit as pint knows it."""
+    unknown = UnitError(f"{text!r} is no unit that is known here{'' if _installed('pint') else ', and pint, which knows more, is not installed'}")
+    if not _installed("pint"):
+        raise unknown
+    import pint
+
+    try:
+        found = [pint.get_application_registry().Quantity(amount, text).to_base_units() for amount in (0.0, 1.0, 2.0)]
+        base = unit_of(f"{found[0].units:~C}")
+    except Exception:  # whatever it says of a text that is no unit
+        raise unknown from None
+    zero, one, two = (float(quantity.magnitude) for quantity in found)
+    if not math.isclose(two - one, one - zero, rel_tol=1e-9):  # a logarithm, such as dB
+        raise unknown
+    return Unit(Fraction(one - zero), Fraction(zero), base.si)
+
+
+def _installed(module):
+    """Whether a library can be imported."""
+    from importlib.util import find_spec
+
+    return module in sys.modules or find_spec(module) is not None
+
+
+def converted(name: str, values: Any, unit: str | None, expected: str, relative: bool = False, shown: str = "") -> Any:
+    """Numbers of a quantity `name` in a unit as what the quantity is `expected` in; None is no unit. `relative` ones are differences;
+    `shown` is a unit in which people read them."""
+    if unit is None or unit == expected:
+        return values
+    wanted = f"expected {expected if expected not in NONE else 'a number without a unit'}" + (f", or {shown}" if shown else "")
+    try:
+        known = unit_of(unit)
+    except UnitError as error:
+        raise UnitError(f"{name}: {error}; {wanted}") from None
+    if known.dimension() != unit_of(expected or "1").dimension():
+        raise UnitError(f"{name} is in {unit!r}: {wanted}")
+    if relative and known.offset:
+        raise UnitError(f"{name} is a difference, for which {unit!r} can be read in two ways: write it in K")
+    return known.to_si(values, relative)
+
+
+def headed(text: Any) -> tuple[Any, str | None]:
+    """Name and unit of a heading, `force [kN]`; what has no unit behind it, or is no heading, stays whole."""
+    match = HEADED.match(text) if isinstance(text, str) else None
+    if match is None:
+        return text, None
+    unit = next((match[group] for group in "abcde" if match[group] is not None), None)
+    return match["name"], None if unit is None else unit.strip()
+
+
+def named(text: Any, known: Container[str]) -> tuple[Any, str | None]:
+    """A name that is `known`, and the unit behind it; a text that is known, or no such heading, stays whole."""
+    name, unit = headed(text)
+    return (name, unit) if text not in known and name in known else (text, None)
+
+
+def behind(name: Any) -> str | None:
+    """The unit behind the name of a column or an index, None without."""
+    unit = headed(name)[1]
+    return None if not unit or unit.isdecimal() else unit  # numbers are those of points
+
+
+def noted(attrs: Any, name: Any = None) -> str | None:
+    """The unit in attributes of xarray or pandas: of one quantity (`units`, `unit`), or of a column `name` among several."""
+    if not hasattr(attrs, "items"):
+        return None
+    of = attrs.get("variables")
+    if hasattr(of, "get") and hasattr(of.get(name), "items"):  # as `wheelrail.table` notes them
+        return noted(of[name])
+    found = next((value for key, value in attrs.items() if str(key).lower() in ("unit", "units")), None)
+    found = found.get(name) if hasattr(found, "get") else found
+    return None if found is None or not str(found).strip() else str(found)
+
+
+def beside(given: Any) -> tuple[Any, str | None]:
+    """What is given without the unit that it has beside it, and that unit: quantities of pint, astropy and the like, arrays of xarray and
+    columns of pandas with attributes or names that say it."""
+    if isinstance(given, (int, float, str, list, tuple, dict)):
+        return given, None
+    if hasattr(given, "iloc"):  # of pandas
+        unit = noted(given.attrs, getattr(given, "name", None)) or behind(getattr(given, "name", None))
+        if hasattr(getattr(given, "dtype", None), "units"):  # of pint-pandas
+            return beside_magnitude(given, given.pint.quantity)
+        return given, unit
+    if hasattr(given, "dims") and hasattr(given, "data"):  # of xarray
+        if type(given.data).__module__.partition(".")[0] == "pint":
+            given = given.pint.dequantify() if hasattr(given, "pint") else given.copy(data=given.data.magnitude).assign_attrs(units=f"{given.data.units:~C}")
+        return given, noted(given.attrs)
+    return _quantity(given)
+
+
+def beside_magnitude(column: Any, quantity: Any) -> tuple[Any, str]:
+    """A column of pint-pandas with plain numbers, and its unit."""
+    magnitude, unit = _quantity(quantity)
+    return type(column)(np.asarray(magnitude, float), column.index, name=column.name), unit
+
+
+def _quantity(given):
+    """Magnitude and unit of a quantity; anything else as it is."""
+    unit = getattr(given, "units", None) if hasattr(given, "units") else getattr(given, "unit", None)
+    if unit is None or isinstance(unit, str) or callable(getattr(given, "total_seconds", None)):
+        return given, None
+    if hasattr(given, "magnitude"):  # pint
+        return given.magnitude, f"{unit:~C}"
+    for name in ("value", "d"):  # astropy, unyt
+        if hasattr(given, name):
+            return getattr(given, name), str(unit)
+    return given, str(unit)
+
+
+def agreed(name: str, units: Iterable[str | None]) -> str | None:
+    """The unit that stands beside a value in several places; two that differ are refused."""
+    found = [unit for unit in units if unit is not None]
+    if len(set(found)) > 1 and len({unit_of(unit) for unit in found}) > 1:
+        raise UnitError(f"{name} is in {found[0]!r} by one mark and in {found[1]!r} by another: leave one of them out")
+    return found[0] if found else None
+
+
+def in_si(record: Any) -> Any:
+    """A Dataset over `time` with its values in SI units and its times in seconds, as runs are recorded: spans of time are such seconds, dates
+    count from the first. What has another unit in its attributes is converted; one that is not known is refused where the FMU's
+    variables are, whose names have dots."""
+    changed = {}
+    for name in record.variables:
+        array, unit = beside(record[name])
+        values = array.values
+        if values.dtype.kind in "mM" and name == "time":
+            spans = values - values[:1] if values.dtype.kind == "M" else values
+            values, unit, array = spans.astype("m8[ns]").astype(float) / 1e9, "s", array.variable
+        elif unit is None or values.dtype.kind not in "iuf":
+            continue
+        try:
+            known = unit_of(unit)
+        except UnitError as error:
+            if "." in name or name == "time":
+                raise UnitError(f"{name}: {error}") from None
+            continue
+        if values is not array.values or known.factor != 1 or known.offset:
+            changed[name] = (array.dims, known.to_si(values), array.attrs | {"units": known.name()})
+    return record.assign_coords({name: of for name, of in changed.items() if name in record.coords}).assign(
+        {name: of for name, of in changed.items() if name not in record.coords}
+    )
