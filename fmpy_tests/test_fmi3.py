@@ -14,7 +14,8 @@ from conftest import ROOT
 from fmpy.validation import validate_fmu
 from lxml import etree
 from wheelrail import Refused, Wheel
-from wheelrail.instances import unloaded
+from wheelrail.calls import Calls
+from wheelrail.instances import loaded
 
 SIGNATURES = ROOT / "slave" / "src" / "c_abi" / "v3" / "export.rs"
 HEADER = Path(fmpy.__file__).parent / "c-code" / "fmi3FunctionTypes.h"
@@ -239,7 +240,7 @@ def test_ramps_by_intermediate_update_are_those_of_input_derivatives(fmu, fmu3):
     h, steps = 5e-3, 20
     names, work = ["drive.moment", "drive.load"], fmu3.variables["energy.hub_work"].valueReference
     references = [fmu3.variables[name].valueReference for name in names]
-    slave, asked = unloaded(fmu3, "wheel"), []
+    slave, asked = loaded(fmu3, "wheel", Calls([])), []
     present, rates = [0.0, 1e5], [-1e5, 0.0]
 
     def answer(environment, time, *_):
@@ -344,7 +345,7 @@ def test_the_library_comes_and_goes_a_thousand_times(fmu3):
     """Loaded, used and unloaded; every hundredth time for a short run."""
     memory = []
     for k in range(1001):
-        slave = unloaded(fmu3, f"wheel{k}")
+        slave = loaded(fmu3, f"wheel{k}", Calls([]))
         slave.start([])
         if k % 100 == 0:
             slave.setupExperiment()

@@ -7,7 +7,7 @@ import math
 import os
 import sys
 import time
-from contextlib import ExitStack
+from contextlib import ExitStack, redirect_stderr, redirect_stdout
 from pathlib import Path
 
 from . import __version__, analysis, completion, damage, operating, paraview
@@ -213,7 +213,17 @@ def checked(options, scenario):
 
 
 def main(argv=None):
-    """Runs a command. Errors become one line: wrong arguments and files end with 2, runs that fail with 1, Ctrl-C with 130."""
+    """Runs a command. Errors become one line: wrong arguments and files end with 2, runs that fail with 1, Ctrl-C with 130.
+    Programs with windows have no streams: nothing is printed then."""
+    with ExitStack() as stack:
+        for redirect, stream in ((redirect_stdout, sys.stdout), (redirect_stderr, sys.stderr)):
+            if stream is None:
+                stack.enter_context(redirect(stack.enter_context(open(os.devnull, "w"))))
+        command(argv)
+
+
+def command(argv):
+    """Runs a command."""
     options = arguments(argv)
     if options.command == "schema":
         print(json.dumps(json_schema(scenarios.SCHEMAS[options.kind]), indent=2))

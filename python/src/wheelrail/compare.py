@@ -7,7 +7,7 @@ import queue
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import nullcontext
+from contextlib import ExitStack, nullcontext
 from copy import deepcopy
 from pathlib import Path
 from types import SimpleNamespace
@@ -71,13 +71,17 @@ def side_by_side(
     """All variants at once; name to (table, rail map). The first that fails ends the others, but one that comes to no end, in time
     or on the track, is put into `endless`, name to error, if that is given."""
     context = multiprocessing.get_context("spawn")
-    runs, before, once = variants(scenario), set(multiprocessing.active_children()), Once()
-    with kept_from_children():
-        manager, pool = context.Manager(), ProcessPoolExecutor(len(runs), context)
-        helper = set(multiprocessing.active_children())
-        news = manager.Queue()
-        jobs = [pool.submit(stop, name, s, dry, path, news) for name, (s, dry) in runs.items()]
-    with manager, pool:
+    runs, once = variants(scenario), Once()
+    with ExitStack() as stack:
+
+        def start():
+            news = stack.enter_context(context.Manager()).Queue()
+            others = set(multiprocessing.active_children())
+            pool = stack.enter_context(ProcessPoolExecutor(len(runs), context))
+            stack.callback(lambda: [child.terminate() for child in set(multiprocessing.active_children()) - others])
+            return news, [pool.submit(stop, name, s, dry, path, news) for name, (s, dry) in runs.items()]
+
+        news, jobs = kept_from_children(start)
         try:
             while not all(job.done() for job in jobs):
                 _hear(news, progress, once)
@@ -86,12 +90,8 @@ def side_by_side(
         except BrokenProcessPool:
             raise Died("the process of a stop was killed; it may have had too little memory") from None
         finally:
-            try:
-                while not news.empty():
-                    _hear(news, progress, once)
-            finally:
-                for child in set(multiprocessing.active_children()) - before - helper:
-                    child.terminate()
+            while not news.empty():
+                _hear(news, progress, once)
 
 
 def _ended(runs, jobs, endless):

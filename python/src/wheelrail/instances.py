@@ -5,10 +5,12 @@ FMI 3.0 has arrays where FMI 2.0 lists their elements, and one type for each siz
 """
 
 from copy import copy
-from ctypes import c_double, c_int, c_uint
+from ctypes import CDLL, c_double, c_int, c_uint
 from dataclasses import dataclass
 from itertools import groupby
+from pathlib import Path
 
+import fmpy
 import numpy as np
 from fmpy import fmi2, fmi3
 
@@ -17,6 +19,7 @@ from .values import Refused
 
 TYPES = {"Float64": "Real", "Int32": "Integer"}  # names that differ between the versions
 QUIET = ["logEvents", "logProgress"]  # categories of which FMI 2.0 is silent unless asked
+TIME = 0  # value reference of the time in FMI 3.0
 RAMPS = 20  # from the value reference of an input to that of its time derivative
 BUFFERS = {"Real": c_double, "Integer": c_int, "Boolean": c_int}
 
@@ -51,12 +54,48 @@ def scalars(description):
     return variables, places
 
 
-class Functions2:
+class Owner:
+    """The only owner of an instance's handle: whoever has a wheel or a copy of it, on any thread, calls the FMU through this
+    object, one call at a time, and is refused once the instance has been freed. It takes the place of the constructor of fmpy's
+    classes, which changes the working directory of the process while it loads the library."""
+
+    def __init__(self, fmu, name, calls):
+        d = fmu.description
+        self.guid, self.modelIdentifier = d.guid, d.coSimulation.modelIdentifier
+        self.unzipDirectory, self.instanceName = fmu.directory, name
+        self.fmiCallLogger, self.requireFunctions, self._functions = None, True, {}
+        self.component = self.callbacks = None
+        self.calls, self.freed = calls, False
+        file = self.modelIdentifier + fmpy.sharedLibraryExtension
+        self.dll = CDLL(str(Path(fmu.directory, "binaries", self.PLATFORM, file).absolute()))
+        self._loadFunctions()
+
+    def _call(self, name, *arguments):
+        with self.calls.lock:
+            if self.freed:
+                raise Refused("the wheel is closed: read its results before, or record them")
+            return super()._call(name, *arguments)
+
+    def freeInstance(self):
+        with self.calls.lock:
+            if not self.freed:
+                self.freed = True
+                super()._call(self.FREE, self.component)
+                self.freeLibrary()
+
+
+class Functions2(Owner):
     """What an instance of FMI 2.0 has besides the functions of fmpy's class."""
+
+    PLATFORM, FREE = fmpy.platform, "fmi2FreeInstance"
 
     def start(self, log):
         """Makes the instance, whose messages go to the list `log`."""
         self.instantiate(callbacks=callbacks(log))
+
+    def reached(self):
+        """The time up to which the FMU has simulated [s]."""
+        return self.getRealStatus(fmi2.fmi2LastSuccessfulTime)
 
     def reader(self, sort, references):
         """A function that reads variables of one type at once, as an array."""
@@ -82,17 +121,23 @@ class Plan:
         self.picked = [starts[place.reference] + place.index for place in places]
 
 
-class Functions3:
-    """What an instance of FMI 3.0 has besides the functions of fmpy's class; `places` are those of `scalars`."""
+class Functions3(Owner):
+    """What an instance of FMI 3.0 has besides the functions of fmpy's class."""
 
-    def __init__(self, places, **arguments):
-        super().__init__(**arguments)
-        self.places, self.experiment, self._plans, self._rates = places, {}, {}, {}
+    PLATFORM, FREE = fmpy.platform_tuple, "fmi3FreeInstance"
+
+    def __init__(self, fmu, name, calls):
+        super().__init__(fmu, name, calls)
+        self.places, self.experiment, self._plans, self._rates = fmu.places, {}, {}, {}
 
     def start(self, log):
         """Makes the instance, whose messages go to the list `log`: as many as FMI 2.0 sends unasked."""
         self.instantiate(loggingOn=True, logMessage=listener(log))
         self.setDebugLogging(False, QUIET)
+
+    def reached(self):
+        """The time up to which the FMU has simulated [s]."""
+        return self.getFloat64([TIME])[0]
 
     def setupExperiment(self, tolerance=None, startTime=0.0, stopTime=None):
         self.experiment = {"tolerance": tolerance, "startTime": startTime, "stopTime": stopTime}
@@ -203,8 +248,8 @@ FUNCTIONS = {"Enumeration": "Int64"}  # of a type, where its name is another
 CELLS = {"Float64": fmi3.fmi3Float64, "Int32": fmi3.fmi3Int32, "Enumeration": fmi3.fmi3Int64, "Boolean": fmi3.fmi3Boolean}
 
 
-def unloaded(fmu, name):
-    """An instance that has not been made yet; the library is loaded with it. Its class is made anew, because fmpy may have been
+def loaded(fmu, name, calls):
+    """An instance that has not been made yet, with the library loaded for it. Its class is made anew, because fmpy may have been
     reloaded, and has a name from which fmpy knows the version."""
 
     class FMU2Instance(Functions2, fmi2.FMU2Slave):
@@ -213,7 +258,4 @@ def unloaded(fmu, name):
     class FMU3Instance(Functions3, fmi3.FMU3Slave):
         pass
 
-    d = fmu.description
-    arguments = {"guid": d.guid, "unzipDirectory": fmu.directory, "instanceName": name}
-    arguments["modelIdentifier"] = d.coSimulation.modelIdentifier
-    return FMU3Instance(fmu.places, **arguments) if fmu.places else FMU2Instance(**arguments)
+    return (FMU3Instance if fmu.places else FMU2Instance)(fmu, name, calls)

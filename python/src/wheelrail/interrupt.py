@@ -1,20 +1,20 @@
 """Ctrl-C is for the process that a person started, not for those it starts."""
 
 import signal
-from contextlib import contextmanager
+from concurrent.futures import ThreadPoolExecutor
 from multiprocessing import resource_tracker
 
 
-@contextmanager
-def kept_from_children():
-    """Processes and threads that begin meanwhile never get Ctrl-C; one that comes meanwhile is felt afterwards. Windows knows no
-    such thing: there everyone gets it."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    resource_tracker.ensure_running()  # or the first process that begins starts it, which lets Ctrl-C through again
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+def kept_from_children(start):
+    """What `start` returns, called on a thread of its own: processes and threads that it begins never get Ctrl-C, and signals of
+    this thread stay as they are. Ctrl-C meanwhile is felt when `start` is done. Windows knows no such thing: there everyone gets
+    it."""
+
+    def apart():
+        if hasattr(signal, "pthread_sigmask"):
+            resource_tracker.ensure_running()  # or the first process that begins starts it, which lets Ctrl-C through again
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        return start()
+
+    with ThreadPoolExecutor(1) as alone:
+        return alone.submit(apart).result()

@@ -20,10 +20,10 @@ from fmpy.model_description import ScalarVariable
 
 from .calls import Calls, Message
 from .folder import TemporaryFolder
-from .instances import scalars, unloaded
+from .instances import loaded, scalars
 from .times import after
 from .units import named
-from .values import Refused, check_names, kind, plain, saved_state, short, to_fmu
+from .values import Refused, Unique, check_names, kind, plain, saved_state, short, to_fmu
 from .warn import warn
 
 log = logging.getLogger("wheelrail.fmu")
@@ -39,18 +39,21 @@ def default_path() -> Path:
     return Path(os.environ.get("WHEELRAIL_FMU") or (inside if inside.is_file() else built))
 
 
-class Fmu:
+class Fmu(Unique):
     """An FMU extracted once, for any number of instances: that at `path`, or at `default_path()`. A context manager."""
+
+    INSTEAD = "open the FMU once more by its path, also in another process"
 
     def __init__(self, path: str | os.PathLike | None = None) -> None:
         path = default_path() if path is None else path
         if not isinstance(path, (str, os.PathLike)):
             raise ValueError(f"Fmu({path!r}): expected the path of an FMU, or nothing")
-        if not Path(path).is_file():
+        file = os.path.abspath(path)
+        if not os.path.isfile(file):
             raise FileNotFoundError(f"{path} does not exist: build it with `make fmu`, or name one by the variable WHEELRAIL_FMU")
         self._folder = TemporaryFolder("wheelrail-")
         try:
-            self.directory = fmpy.extract(str(path), unzipdir=str(self._folder.path))
+            self.directory = fmpy.extract(file, unzipdir=str(self._folder.path))
             self.description = fmpy.read_model_description(self.directory)
         except (BadZipFile, KeyError, OSError, ValueError, SyntaxError) as failure:
             self._folder.remove()
@@ -110,11 +113,17 @@ class Fmu:
         return self
 
     def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Removes what was extracted: wheels that are open step on, and no other is opened."""
         self._folder.remove()
 
 
-class Instance:
+class Instance(Unique):
     """An instance that is ready to step: see `fmu.Wheel`. `_recorders` are told of steps and of states that are restored."""
+
+    INSTEAD = "make another one of the same parameters"
 
     def __init__(
         self,
@@ -128,7 +137,7 @@ class Instance:
         for values in (parameters, inputs):
             check_names(values or {}, "Wheel")
         self.fmu, self.name = fmu, name
-        self.time = 0.0  # s
+        self._time, self._moves, self._begun = 0.0, False, None  # s; whether a call moves the time; begin of a step not yet recorded
         self.log: list[Message] = []
         self._heard, self._said, self._recorders = 0, set(), []
         self._calls = Calls(self.log)
@@ -148,6 +157,18 @@ class Instance:
             self._free()
             raise
 
+    @property
+    def time(self) -> float:
+        """Present time [s], which is the FMU's, also where a call was interrupted."""
+        with self._calls.lock:
+            if self._moves and not self.slave.freed:
+                self._time, self._moves = self._calls(self.slave.reached), False
+            return self._time
+
+    @time.setter
+    def time(self, time: float) -> None:
+        self._time, self._moves = time, False
+
     def _begin(self):
         """Ends initialization, after which the wheel steps."""
         self._call(self.slave.exitInitializationMode)
@@ -159,16 +180,18 @@ class Instance:
         self.close()
 
     def close(self) -> None:
-        """Terminates and frees the instance; nothing happens if that has been done. Records keep what they have. A process
-        that was forked leaves the instance to the one that made it."""
-        if isinstance(self.slave, _Closed):
-            return
-        try:
-            if not self._calls.foreign():
-                self._call(self.slave.terminate)
-        finally:
-            self._free()
-            self.slave = _Closed()
+        """Terminates and frees the instance, when calls of other threads have come to their ends; nothing happens if that has been
+        done. Records keep what they have. A process that was forked leaves the instance to the one that made it."""
+        with self._calls.lock:
+            if self.slave.freed:
+                return
+            try:
+                if not self._calls.foreign():
+                    self._tell()
+                    self._time = self.time
+                    self._call(self.slave.terminate)
+            finally:
+                self._free()
         self._say()
 
     def set(self, values: Mapping[str, object]) -> None:
@@ -202,9 +225,10 @@ class Instance:
         if not names:
             raise ValueError("get() needs the name of a variable, such as get('contact.force_x')")
         variables, values = [self.fmu.variable(name) for name in names], {}
-        for sort in dict.fromkeys(map(kind, variables)):
-            references = [v.valueReference for v in variables if kind(v) == sort]
-            values |= zip(references, self._call(getattr(self.slave, "get" + sort), references))
+        with self._calls.lock:
+            for sort in dict.fromkeys(map(kind, variables)):
+                references = [v.valueReference for v in variables if kind(v) == sort]
+                values |= zip(references, self._call(getattr(self.slave, "get" + sort), references))
         values = [plain(variable, values[variable.valueReference]) for variable in variables]
         return values[0] if len(names) == 1 else values
 
@@ -244,10 +268,19 @@ class Instance:
         """Advances by `h` seconds, to the time `end` [s] where that is known better than by their sum."""
         if not isinstance(h, Real):
             raise ValueError(f"step({short(h)}): expected a number of seconds")
-        self.advance(h, end)
-        for recorder in self._recorders:
-            recorder.stepped()
+        with self._calls.lock:
+            self._tell()
+            self._begun = self.time
+            self.advance(h, end)
+            self._tell()
         self._say()
+
+    def _tell(self):
+        """Tells the recorders of a step that has been done, which an interrupt may have kept from them."""
+        if self._begun is not None and self.time > self._begun:
+            for recorder in self._recorders:
+                recorder.stepped()
+        self._begun = None
 
     def sample(self) -> None:
         """Lets all records take a sample now, whose turn it may not be."""
@@ -256,22 +289,28 @@ class Instance:
 
     def advance(self, h: float, end: float | None = None) -> None:
         """Advances by a part of `h` seconds of a step, to the time `end` [s] if it is known; records do not count it."""
-        self._call(self.slave.doStep, self.time, h)
-        self.time = after(self.time, h) if end is None else end
+        with self._calls.lock:
+            now, self._moves = self.time, True
+            self._call(self.slave.doStep, now, h)
+            self.time = after(now, h) if end is None else end
 
     def save(self) -> tuple[object, float]:
         """A handle for `restore`; free it with `forget`."""
-        return self._call(self.slave.getFMUstate), self.time
+        with self._calls.lock:
+            return self._call(self.slave.getFMUstate), self.time
 
     def restore(self, saved: tuple[object, float]) -> None:
         """Returns to a saved state; records lose what came after it."""
         state, time = saved_state(saved)
-        for recorder in self._recorders:
-            recorder.listen()
-        self._call(self.slave.setFMUstate, state)
-        self.time = time
-        for recorder in self._recorders:
-            recorder.rewind()
+        with self._calls.lock:
+            self._tell()
+            for recorder in self._recorders:
+                recorder.listen()
+            self._moves = True
+            self._call(self.slave.setFMUstate, state)
+            self.time = time
+            for recorder in self._recorders:
+                recorder.rewind()
         self._say()
 
     def forget(self, saved: tuple[object, float]) -> None:
@@ -290,31 +329,27 @@ class Instance:
 
     def _say(self):
         """Says warnings that have not been said."""
-        while self._heard < len(self.log):
-            message = self.log[self._heard]
-            self._heard += 1
+        while (message := self._next()) is not None:
             log.log(LEVELS.get(message.status, logging.ERROR), "%s: %s", self.name, message)
             if message.status == WARNING and (text := AT.sub("", message)) not in self._said:
                 self._said.add(text)
                 warn(str(message))
 
-
-class _Closed:
-    """Stands for the instance of a wheel that has been closed."""
-
-    def __getattr__(self, _):
-        raise Refused("the wheel is closed: read its results before, or record them")
+    def _next(self):
+        """A message that has not been said: on one thread only."""
+        with self._calls.lock:
+            unsaid = self.log[self._heard : self._heard + 1]
+            self._heard += len(unsaid)
+        return unsaid[0] if unsaid else None
 
 
 def instance(fmu: Fmu, name: str, call: Calls) -> Any:
     """An instance of the FMU's library, which is loaded with it."""
-    here = os.getcwd()
     if not Path(fmu.directory).is_dir():
         raise Refused("the FMU is closed: open wheels within `with Fmu() as fmu`")
     try:
-        slave = unloaded(fmu, name)
-    except Exception as failure:  # fmpy raises plain exceptions
-        os.chdir(here)  # where fmpy has left
+        slave = loaded(fmu, name, call)
+    except (OSError, AttributeError) as failure:  # no library, one of another machine, or one that lacks a function
         raise Refused(f"the library of the FMU cannot be loaded on this machine: {failure}") from failure
     try:
         call(slave.start, call.log)
@@ -324,7 +359,9 @@ def instance(fmu: Fmu, name: str, call: Calls) -> Any:
 
 
 def _free(slave, call):
-    """Frees an instance that this process has made."""
-    if not call.foreign():
-        with call.lock:
+    """Frees an instance that this process has made; one of another process is only forgotten."""
+    with call.lock:
+        if call.foreign():
+            slave.freed = True
+        else:
             slave.freeInstance()

@@ -2,10 +2,29 @@
 
 import sys
 import time
+from threading import RLock
 
 from tqdm import tqdm
 
 FORM = "{desc}: {percentage:3.0f}% |{bar}| [{elapsed}<{remaining}{postfix}]"
+
+
+class Bar(tqdm):
+    """A bar of tqdm without what else it leaves in the process: a thread, and a lock that settles how other processes begin."""
+
+    monitor_interval, _own = 0, RLock()
+
+    @classmethod
+    def get_lock(cls):
+        return getattr(tqdm, "_lock", cls._own)
+
+
+def is_terminal(file):
+    """Whether a stream is a terminal. Programs with windows have no stream."""
+    try:
+        return file.isatty()
+    except (AttributeError, ValueError):  # none, one of the user's own, or a closed one
+        return False
 
 
 class Progress:
@@ -16,8 +35,8 @@ class Progress:
         self.file = file or sys.stderr
         self.began, self.tenth = time.monotonic(), int(10.0 * initial / total) if total else 10
         self.bar = None
-        if self.file.isatty():
-            self.bar = tqdm(total=total, initial=initial, desc=about, bar_format=FORM, file=self.file)
+        if is_terminal(self.file):
+            self.bar = Bar(total=total, initial=initial, desc=about, bar_format=FORM, file=self.file)
 
     def __enter__(self):
         return self
@@ -34,7 +53,7 @@ class Progress:
             self.bar.update(self.done - self.bar.n)
             return
         tenth = int(10.0 * self.done / self.total + 1e-9)
-        if tenth > self.tenth:
+        if tenth > self.tenth and self.file:
             self.tenth = tenth
             print(f"{self.about}: {10 * tenth:3d} %, {self._times()}{f'; {words}' if words else ''}", file=self.file, flush=True)
 

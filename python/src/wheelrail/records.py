@@ -78,37 +78,37 @@ class Recorder:
         self._depths = wheel.profile("depth") if self._over_depth() else None
         self._settings = settings(wheel)
         self._warnings, self._heard = [], 0
-        self._times, self._samples, self._steps = [], [], []
+        self._samples, self._steps = [], []  # (time, values); times
         self.sample()
 
     def _over_depth(self):
         return any(name.removeprefix("profile.") in BELOW for name in self.arrays)
 
     def stepped(self) -> None:
-        """Takes note of a step, and a sample if it is its turn."""
-        self._steps.append(self.wheel.time)
-        if len(self._steps) % self.every == 0:
+        """Takes note of a step, and a sample if it is its turn; of one that is known, nothing."""
+        time = self.wheel.time
+        if self._steps and self._steps[-1] == time:
+            return
+        if (len(self._steps) + 1) % self.every == 0:
             self.sample()
+        self._steps.append(time)
 
     def sample(self) -> None:
         """Takes a sample now, in the place of one of the same time."""
-        values = [reader() for reader in self._readers]
-        if self._patch:
-            values.append(self._patch())
-        if self._times and isclose(self._times[-1], self.wheel.time, rel_tol=SAME_TIME):
-            self._times[-1], self._samples[-1] = self.wheel.time, values
-        else:
-            self._times.append(self.wheel.time)
-            self._samples.append(values)
-        self.listen()
+        with self.wheel._calls.lock:
+            time, values = self.wheel.time, [reader() for reader in self._readers]
+            if self._patch:
+                values.append(self._patch())
+            same = self._samples and isclose(self._samples[-1][0], time, rel_tol=SAME_TIME)
+            self._samples[len(self._samples) - bool(same) :] = [(time, values)]
+            self.listen()
 
     def rewind(self) -> None:
         """Drops steps, samples and warnings from after the present time of the wheel."""
         self._warnings = [(heard, warning) for heard, warning in self._warnings if heard <= self.wheel.time]
         while self._steps and self._steps[-1] > self.wheel.time:
             self._steps.pop()
-        while self._times and self._times[-1] > self.wheel.time:
-            self._times.pop()
+        while self._samples and self._samples[-1][0] > self.wheel.time:
             self._samples.pop()
 
     def listen(self) -> None:
@@ -128,10 +128,13 @@ class Recorder:
         `parameters` that differ from the preset, `warnings`; the last three of lists and values as JSON.
         """
         xarray = library("xarray")
-        self.listen()
-        time = ("time", np.array(self._times), {"units": "s", "long_name": "Time"})
+        with self.wheel._calls.lock:
+            self.wheel._tell()
+            self.listen()
+            times, samples = zip(*self._samples)
+        time = ("time", np.array(times), {"units": "s", "long_name": "Time"})
         data, coordinates, held = {}, {"time": time}, {}
-        columns = [np.array([sample[k] for sample in self._samples]) for k in range(len(self._readers))]
+        columns = [np.array([sample[k] for sample in samples]) for k in range(len(self._readers))]
         places = ((k, i, reference) for k, reader in enumerate(self._readers) for i, reference in enumerate(reader.references))
         column = {reference: (columns[k], i) for k, i, reference in places}
 
@@ -150,7 +153,7 @@ class Recorder:
             values = block[:, first : first + len(points)]
             data[name] = (("time", _place(name)), values, attributes(points[0]))
         if self._patch:
-            rows = np.array([sample[-1] for sample in self._samples])
+            rows = np.array([sample[-1] for sample in samples])
             for k, quantity in enumerate(self._patch.quantities):
                 about = attributes(self.wheel.fmu.variable(self.wheel.fmu.points(quantity)[0]))
                 data[f"patch.{quantity}"] = (("time", "line", "node"), rows[:, :, k], about)
@@ -382,11 +385,10 @@ def _reader(wheel, sort, variables):
     references = [v.valueReference for v in variables if kind(v) == sort]
     if not references:
         return None
-    slave, reader = wheel.slave, wheel.slave.reader(sort, references)
+    reader = wheel.slave.reader(sort, references)
 
     def read():
-        # That of a wheel which has been closed says so.
-        return wheel._call(reader if wheel.slave is slave else wheel.slave.reader)
+        return wheel._call(reader)
 
     read.references = references
     return read

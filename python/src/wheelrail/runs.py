@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import logging
+import sys
 from collections.abc import Iterable, Mapping
-from contextlib import ExitStack
+from contextlib import ExitStack, nullcontext
 from math import ceil, isfinite
 from numbers import Real
 from pathlib import Path
@@ -87,12 +88,12 @@ def simulate(
 
 def _advance(wheel, courses, stop, step, progress):
     """Steps a wheel to the end; inputs that vary are ramps within a step."""
-    from tqdm import tqdm
+    from .progress import Bar, is_terminal
 
     steps = max(ceil(stop / step - ROUNDING), 0)
     moving = {name: course for name, course in courses.items() if not course.constant}
-    # None: where there is a terminal.
-    with tqdm(total=stop, desc="run", bar_format=BAR, disable=None if progress else True) as bar:
+    shown = progress and is_terminal(sys.stderr)
+    with Bar(total=stop, desc="run", bar_format=BAR) if shown else nullcontext() as bar:
         for k in range(steps):
             rest = stop - wheel.time
             h = rest if rest < (1.0 - ROUNDING) * step else step
@@ -103,7 +104,8 @@ def _advance(wheel, courses, stop, step, progress):
                 h = last - end
             _prescribe(wheel, moving, last)
             wheel.step(h, stop if k == steps - 1 else at(k + 1, step))
-            bar.update(wheel.time - bar.n)
+            if bar:
+                bar.update(wheel.time - bar.n)
 
 
 def _prescribe(wheel, moving, end):

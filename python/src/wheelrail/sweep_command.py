@@ -92,11 +92,9 @@ def _client(distributed, options, stack):
         logging.getLogger(f"distributed{name}").setLevel(logging.CRITICAL)
     warnings.filterwarnings("ignore", module="distributed")
     if not options.scheduler:
-        with kept_from_children():
-            cluster = distributed.LocalCluster(
-                n_workers=options.workers, threads_per_worker=1, dashboard_address=":0", silence_logs=logging.CRITICAL
-            )
-        return distributed.Client(stack.enter_context(cluster), set_as_default=False)
+        workers = {"n_workers": options.workers, "threads_per_worker": 1, "dashboard_address": ":0", "silence_logs": logging.CRITICAL}
+        cluster = kept_from_children(lambda: stack.enter_context(distributed.LocalCluster(**workers)))
+        return distributed.Client(cluster, set_as_default=False)
     address = options.scheduler if "://" in options.scheduler else f"tcp://{options.scheduler}"
     start = "start one with `dask scheduler`, or leave out --scheduler for workers on this machine"
     try:

@@ -80,11 +80,15 @@ class _Order:
             self.done.put(count)
 
     def finish(self, patience):
-        """Works and waits until all is done."""
-        self.work()
-        missing = len(self.results)
-        while missing:
-            missing -= _await(self.done, patience)
+        """Works and waits until all is done. Interrupted, it leaves what nobody has begun."""
+        try:
+            self.work()
+            missing = len(self.results)
+            while missing:
+                missing -= _await(self.done, patience)
+        except BaseException:
+            self.todo.clear()
+            raise
         if self.failures:
             interrupts = [k for k, failure in self.failures.items() if not isinstance(failure, Exception)]
             raise self.failures[min(interrupts or self.failures)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from ctypes import c_void_p
 from numbers import Integral, Real
 
 from fmpy.model_description import ScalarVariable
@@ -15,6 +16,13 @@ NUMBERS = {"Boolean": "True or False", "Integer": "a whole number", "Enumeration
 
 class Refused(Exception):
     """A call that the FMU refused; the text is what it logged."""
+
+
+class Unique:
+    """What owns something of this process, and therefore can be neither copied nor pickled."""
+
+    def __reduce_ex__(self, _: object) -> None:
+        raise Refused(f"a {type(self).__name__} can be neither copied nor pickled: {self.INSTEAD}")
 
 
 def kind(variable: ScalarVariable) -> str:
@@ -73,6 +81,6 @@ def short(value: object) -> str:
 
 def saved_state(saved: object) -> tuple[object, float]:
     """State and time of what `save` gave."""
-    if not (isinstance(saved, tuple) and len(saved) == 2):
+    if not (isinstance(saved, tuple) and len(saved) == 2 and isinstance(saved[0], c_void_p)):
         raise ValueError(f"{short(saved)} is not what save() returned")
     return saved
