@@ -161,8 +161,9 @@ NOT_RUN = {
     ),
     "this test runs within it, or it compiles everything once more": (
         ".ci/run", "make test", "make test-fmpy", "make test-times", "make quick", "make loop TEST=brake", "make loop TEST=heat_closed_forms",
-        "make figures", "make figures ALL=1", 'make figures ACCEPT=1 REASON="..."', "tools/figures.py --keep surfaces make surfaces",
-        "make instructions", "tools/instructions.py", "tools/instructions.py --accept", "cargo build --no-default-features --lib",
+        "make figures", "make figures ALL=1", "make figures ACCEPT=1", 'make figures ACCEPT=1 REASON="..."',
+        'make figures ACCEPT=1 REASON="fewer nodes"', "python3 tools/run_tests.py -p wheelrail --test transient_rolling", "tools/figures.py --keep locked-wheels make locked-wheels",
+        "tools/figures.py", "make instructions", "tools/instructions.py", "tools/instructions.py --accept", "cargo build --no-default-features --lib",
         "make loop TEST=lib", "make loop TEST=lib ARGS=profile", "make loop TEST=lib ARGS=every_output", "make docs", "make clean", "make fmu PROFILES=no",
         "cargo build --release", "cargo check --release --lib", "cargo loop --test brake -- name", "cargo test",
         "cargo test --release --lib ROOM:: -- --nocapture", "cargo test --release --test NAME -- --nocapture",

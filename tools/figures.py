@@ -5,7 +5,7 @@
     make figures ALL=1                    every figure of a test must have been printed, too: `make test` ends with it
     make figures ACCEPT=1 REASON="..."    keeps what was printed and writes the pages; a worse figure needs the reason
     tools/figures.py --by-hand            figures of the tables of docs/validation.md that no program writes
-    tools/figures.py --keep surfaces make surfaces    runs a study and keeps the figures that it prints
+    tools/figures.py --keep locked-wheels make locked-wheels    runs a study and keeps the figures that it prints
 
 A test prints a line `figure: NAME = VALUES`, with up to a unit in brackets behind the name, and one of these at its end:
 
@@ -14,14 +14,17 @@ A test prints a line `figure: NAME = VALUES`, with up to a unit in brackets behi
     figure: hub.approach [µm] = 3.848 ± 0.01  neither better nor worse within 1 % of what is kept
     figure: ramps = 2.3e-3, 2.7e-3, 3.3e-3    three figures, ramps.1 to ramps.3
 
-The programs that run tests keep these lines below target/figures. A page marks the numbers by a comment behind them, which
+The programs that run tests keep these lines below target/figures. Studies of minutes print theirs if WHEELRAIL_FIGURES is
+set, as --keep does. A page marks the numbers by a comment behind them, which
 names their figures and the form of each as Python's f-strings do: `within 2.3e-3, 2.7e-3, 3.3e-3<!--ramps:.1e-->`. The form
-`.1%` multiplies by 100 and leaves the sign % to the page.
+`.1%` multiplies by 100 and leaves the sign % to the page, `-.1%` and `+.1%` show which way a deviation goes; `*` stands for any
+part of a name.
 """
 
 import argparse
 import csv
 import math
+import os
 import re
 import subprocess
 import sys
@@ -35,11 +38,12 @@ FIELDS = ("name", "value", "unit", "better", "printed by", "reason")
 # A change by less than this share is neither better nor worse.
 SHARE = 0.2
 # Rows of docs/validation.md whose measured values have no mark. Who marks one lowers it.
-BY_HAND = 1000
+BY_HAND = 17
 NUMBER = re.compile(r"(?<![\w.])[+−-]?(?:\d+(?:\.\d+)?|\.\d+)(?:e[+−-]?\d+)?(?!\w)")
 NAME = r"[A-Za-z][\w.]*"
 LINE = re.compile(rf"^figure: (?P<name>{NAME})(?: \[(?P<unit>[^]]+)\])? = (?P<values>[^±<\n]+)(?: (?P<better>[±<] \S+))?$", re.MULTILINE)
-MARK = re.compile(rf"<!--(?P<items>{NAME}:\S+(?: {NAME}:\S+)*)-->")
+ITEM = r"[A-Za-z][\w.*]*:[^\s>]+"
+MARK = re.compile(rf"<!--(?P<items>{ITEM}(?: {ITEM})*)-->")
 
 
 def parsed(text, program):
@@ -81,7 +85,7 @@ def write(file, rows):
         table = csv.DictWriter(lines, FIELDS, lineterminator="\n")
         table.writeheader()
         for row in sorted(rows.values(), key=lambda row: (row["printed by"], row["name"])):
-            table.writerow(row | {"value": f"{row['value']:.4g}"})
+            table.writerow(row | {"value": f"{row['value']:.6g}"})
 
 
 def keep(text, program):
@@ -151,24 +155,37 @@ def renewed(kept, found, reason, everything):
 
 
 def formatted(value, form):
-    """A number as pages write it.
+    """A number as pages write it: its magnitude, unless the form has a sign.
 
-    >>> [formatted(*pair) for pair in ((1.04e-4, ".1e"), (-0.0123, ".1%"), (1178.9, ".0f"), (0.004, "+.1%"), (-1e-9, ".2f"))]
+    >>> [formatted(*pair) for pair in ((-1.04e-4, ".1e"), (-0.0123, "-.1%"), (1178.9, ".0f"), (0.004, "+.1%"), (-1e-9, "-.2f"))]
     ['1.0e-4', '−1.2', '1179', '+0.4', '0.00']
     """
+    value = value if form[:1] in "+-" else abs(value)
     text = format(100 * value, form[:-1] + "f") if form.endswith("%") else format(value, form)
     text = re.sub(r"e([+-])0*(\d)", lambda found: f"e{found[1].strip('+')}{found[2]}", text)
     return text.replace("-", "−", 1) if text.startswith("-") and float(text) else text.lstrip("-")
 
 
+def named_by(item, rows):
+    """Names of the figures that the item of a mark stands for, numbers in them by their size.
+
+    >>> rows = ("a.1", "a.2", "a.10", "ramp.10.x", "ramp.2.x", "ramp.2.y")
+    >>> named_by("a", rows), named_by("ramp.*.x", rows), named_by("a.2", rows)
+    (['a.1', 'a.2', 'a.10'], ['ramp.2.x', 'ramp.10.x'], ['a.2'])
+    """
+    if item in rows:
+        return [item]
+    pattern = re.escape(item).replace(r"\*", r"[\w.]+") if "*" in item else re.escape(item) + r"\.\d+"
+    pieces = lambda name: [float(piece) if piece[:1].isdigit() else piece for piece in re.split(r"(\d+(?:\.\d+)?)", name)]
+    return sorted((name for name in rows if re.fullmatch(pattern, name)), key=pieces)
+
+
 def numbers(items, rows):
-    """The numbers that a mark asks for. A name alone stands for all of its numbered figures."""
+    """Names and texts of the numbers that a mark asks for."""
     found = []
     for item in items.split(" "):
         name, form = item.split(":", 1)
-        names = [name] if name in rows else []
-        while f"{name}.{len(names) + 1}" in rows and name not in rows:
-            names.append(f"{name}.{len(names) + 1}")
+        names = named_by(name, rows)
         if not names:
             raise ValueError(f"{name} is not in {KEPT.name}")
         found += [(name, formatted(rows[name]["value"], form)) for name in names]
@@ -234,7 +251,8 @@ def by_hand(text):
 def study(name, command):
     """Runs a study and keeps the figures that it prints; its exit code."""
     lines = []
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, errors="replace") as running:
+    told = os.environ | {"WHEELRAIL_FIGURES": "1"}
+    with subprocess.Popen(command, env=told, stdout=subprocess.PIPE, text=True, errors="replace") as running:
         for line in running.stdout:
             lines.append(line)
             print(line, end="", flush=True)

@@ -82,7 +82,7 @@ pub fn figure_within(tolerance: f64, name: &str, values: &[f64]) {
 }
 
 fn listed(values: &[f64]) -> String {
-    values.iter().map(|value| format!("{value:.3e}")).collect::<Vec<_>>().join(", ")
+    values.iter().map(|value| format!("{value:.5e}")).collect::<Vec<_>>().join(", ")
 }
 
 /// Smallest and largest value.
