@@ -31,6 +31,8 @@
 # make hunting   a wheelset of two wheels on springs below and above its critical speed, beside linear theory: table and plot in results/
 # make locked-wheels wheels locked at five speeds, three steps and three meshes, and those of every preset by speed and by brake:
 #                pressure, temperature, friction; an error where a limit is broken
+# make figures   figures that tests have printed beside those of docs/figures.csv, and these beside the pages; ALL=1 misses those
+#                of tests that have not run; ACCEPT=1 REASON="why a worse one is" keeps what was printed and writes the pages
 # make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
 #                with FULL=1 on finer meshes, too, and with 16 points or more a curve; ACCEPT=1 keeps the values that it found
 # make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
@@ -99,7 +101,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/hunting.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 compilers fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack hunting published locked-wheels thesis bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs bench-page site describe clean
+.PHONY: demo help test forget-figures test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 compilers fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack hunting published locked-wheels thesis figures bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs bench-page site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -108,7 +110,9 @@ demo: $(FMU) $(INSTALLED)
 help:
 	@sed -n '/^#/!q; s/^# //p' $(firstword $(MAKEFILE_LIST))
 
-test: test-tools test-rust test-fmpy
+# The last of them compares the figures that all others have printed.
+test: forget-figures test-tools test-rust test-fmpy
+	@$(MAKE) --no-print-directory figures ALL=1
 
 # What the tests need: `.ci/run` makes it side by side.
 environments: $(INSTALLED) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
@@ -120,6 +124,10 @@ packed: $(FMU) $(FMU3)
 test-programs: $(COACH)
 	$(RELEASE_CARGO) test --release --locked --quiet --no-run -p wheelrail -p wheelrail-slave -p wheelrail-bench --lib --bins --tests
 	$(RELEASE_CARGO) test --release --locked --quiet --no-run -p wheelrail-thesis --lib --bins --tests
+
+# Of earlier runs, from which a program may be gone.
+forget-figures:
+	rm -rf target/figures
 
 test-tools:
 	$(PYTHON) -m unittest discover --quiet tools
@@ -231,6 +239,9 @@ locked-wheels: $(BUILT)
 	$(LOCKED); first=$$?; \
 	$(LOCKED) --name locked_wheels_presets --presets all --by speed,brake --speeds 40,80,120,160,200 --steps 1e-3 --meshes 10 \
 		&& exit $$first
+
+figures:
+	@$(PYTHON) tools/figures.py $(if $(ALL),--all) $(if $(ACCEPT),--accept --reason "$(REASON)")
 
 thesis:
 	$(CARGO) run --release --locked --quiet -p wheelrail-thesis -- $(if $(FULL),--full) $(if $(ACCEPT),--accept) --out results/thesis

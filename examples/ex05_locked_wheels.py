@@ -28,6 +28,7 @@ import argparse
 import csv
 import itertools
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -257,6 +258,27 @@ def report(results):
     return count
 
 
+def of_pages(results):
+    """Lines with the figures of docs/validation.md, as tools/figures.py reads them: of one preset, or of all."""
+    if len({r["preset"] for r in results}) > 1:
+        lines = [f"figure: locked.presets.signs = {r['signs']:.2e}" for r in results]
+        return [*lines, f"figure: locked.presets.temperature [°C] = {max(r['T max'] for r in results):.0f} ± 0.01"]
+    lines = []
+    for r in results:
+        name = f"{r['speed']:g}.{r['step'] * 1e6:g}.{r['elements']}"
+        lines.append(f"figure: locked.slide.{name} = {r['p max'] / 1e6:.0f}, {r['p mean'] / 1e6:.0f}, {r['T max']:.0f} ± 0.02")
+        lines.append(f"figure: locked.force.{name} [kN] = {r['force'] / 1e3:.3f} ± 0.01")
+        lines += [f"figure: locked.signs = {r['signs']:.2e}", f"figure: locked.energy = {r['energy']:.1e}"]
+    # Runs on one mesh show what the step does, and those of one step what the mesh does.
+    for what, kept in (("step", "elements"), ("mesh", "step")):
+        for group in sorted({(r["speed"], r[kept]) for r in results}):
+            apart = spread([r for r in results if (r["speed"], r[kept]) == group])[0].values()
+            lines.append(f"figure: locked.by.{what} = " + ", ".join(f"{distance:.2e}" for distance in apart))
+    pressures, temperatures = ([r[name] for r in results] for name in ("p max", "T max"))
+    lines.append(f"figure: locked.pressure = {min(pressures) / YIELD:.3f}, {max(pressures) / YIELD:.3f} ± 0.03")
+    return [*lines, f"figure: locked.temperature [°C] = {min(temperatures):.0f}, {max(temperatures):.0f} ± 0.01"]
+
+
 def numbers(text):
     """A list of numbers on the command line."""
     return [float(word) for word in text.split(",")]
@@ -307,6 +329,8 @@ def study(options):
     results.sort(key=lambda r: (r["preset"], r["by"], r["speed"], -r["step"], r["elements"]))
     print(f"\nIn order:\n{HEAD}\n" + "\n".join(line(r) for r in results))
     count = report(results)
+    if os.environ.get("WHEELRAIL_FIGURES"):
+        print("\n".join(of_pages(results)))
     options.out.mkdir(parents=True, exist_ok=True)
     table = options.out / f"{options.name}.csv"
     with open(table, "w", newline="") as file:

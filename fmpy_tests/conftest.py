@@ -1,6 +1,8 @@
-"""Fixtures: the packed FMU, extracted once, and wheels that are closed after each test."""
+"""Fixtures: the packed FMU, extracted once, and wheels that are closed after each test; what becomes of printed figures."""
 
 import os
+import sys
+from collections import defaultdict
 from pathlib import Path
 
 import pytest
@@ -8,8 +10,31 @@ import pytest
 from wheelrail import Fmu, Wheel
 
 ROOT = Path(__file__).parent.parent
+sys.path.append(str(ROOT / "tools"))
+import figures  # noqa: E402
+
 PACKED = Path(os.environ.get("WHEELRAIL_FMU", ROOT / "target" / "wheelrail.fmu"))
 PACKED3 = ROOT / "target" / "wheelrail-fmi3.fmu"
+
+
+class Figures:
+    """Keeps the figures of the pages that tests print (tools/figures.py), those of each file when all of it has run."""
+
+    def __init__(self):
+        self.said = defaultdict(str)
+
+    def pytest_runtest_logreport(self, report):
+        self.said[f"fmpy_tests/{Path(report.nodeid.split('::')[0]).name}"] += report.capstdout if report.when == "call" else ""
+
+    def pytest_sessionfinish(self):
+        for program, text in self.said.items():
+            figures.keep(text, program)
+
+
+def pytest_configure(config):
+    """The process that collects the reports, of all workers if there are any, keeps the figures."""
+    if not hasattr(config, "workerinput"):
+        config.pluginmanager.register(Figures())
 
 
 @pytest.fixture(scope="session")

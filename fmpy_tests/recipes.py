@@ -66,6 +66,7 @@ CHECKOUT = (
     Recipe("make python-wheel", says=".whl"),
     Recipe("make house", ("make house", "tools/house.py"), "lines"),
     Recipe("tools/house.py --all"),
+    Recipe("tools/figures.py --by-hand", says="rows"),
     Recipe("tools/house.py --json", says="{{"),
     Recipe("tools/house.py contact"),
     Recipe("tools/house.py contact rolling"),
@@ -161,7 +162,9 @@ NOT_RUN = {
     ),
     "this test runs within it, or it compiles everything once more": (
         ".ci/run", "make test", "make test-fmpy", "make test-times", "make quick", "make loop TEST=brake", "make loop TEST=heat_closed_forms",
-        "make instructions", "tools/instructions.py", "tools/instructions.py --accept", "cargo build --no-default-features --lib",
+        "make figures", "make figures ALL=1", "make figures ACCEPT=1", 'make figures ACCEPT=1 REASON="..."',
+        'make figures ACCEPT=1 REASON="fewer nodes"', "python3 tools/run_tests.py -p wheelrail --test transient_rolling", "tools/figures.py --keep locked-wheels make locked-wheels",
+        "tools/figures.py", "make instructions", "tools/instructions.py", "tools/instructions.py --accept", "cargo build --no-default-features --lib",
         "make loop TEST=lib", "make loop TEST=lib ARGS=profile", "make loop TEST=lib ARGS=every_output", "make docs", "make clean", "make fmu PROFILES=no",
         "cargo build --release", "cargo check --release --lib", "cargo loop --test brake -- name", "cargo test",
         "cargo test --release --lib ROOM:: -- --nocapture", "cargo test --release --test NAME -- --nocapture",

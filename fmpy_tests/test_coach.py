@@ -70,6 +70,7 @@ def test_load_transfer_is_that_of_a_rigid_coach(low_adhesion, payload):
     expected = transfer(low_adhesion.vehicle, deceleration)
     static = expected.mean()
     found = np.array([report.column(table, "load", k)[steady].mean() for k in range(AXLES)])
+    print(f"figure: load.transfer = {np.abs((found - static) / (expected - static) - 1.0).max():.2e}")
     print(f"deceleration {deceleration:.4f} m/s2, transfer {found - static} N, rigid {expected - static} N")
     assert found.sum() == pytest.approx(AXLES * static, rel=1e-6)
     np.testing.assert_allclose(found - static, expected - static, rtol=0.02)
@@ -79,6 +80,7 @@ def test_load_transfer_is_that_of_a_rigid_coach(low_adhesion, payload):
 def test_a_dry_stop_is_as_long_as_the_closed_form_says(low_adhesion, speed):
     low_adhesion.speed, low_adhesion.step, low_adhesion.hold = speed, 0.01, 0.0
     found, expected = distance(stopped(low_adhesion)), closed_form(low_adhesion)
+    print(f"figure: stop.rigid.{speed:.0f} [m] = {expected:.3f}, {found:.3f} ± 0.0005")
     print(f"{speed:g} m/s: {found:.3f} m, closed form {expected:.3f} m")
     assert found == pytest.approx(expected, rel=0.005)
 

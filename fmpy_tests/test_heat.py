@@ -23,12 +23,14 @@ def test_all_friction_power_becomes_heat(start):
         power, to_wheel, to_rail = wheel.get("heat.friction_power", "heat.to_wheel", "heat.to_rail")
         friction += 1e-3 * power
         heat += 1e-3 * (to_wheel + to_rail)
+    print(f"figure: heat.of.friction = {heat / (0.9 * friction) - 1.0:.1e} < 1e-12")
     assert friction > 50.0
     assert heat == pytest.approx(0.9 * friction, rel=1e-6)
     assert abs(wheel.get("solver.heat_residual")) < 1e-6
     x, shear, slip = (np.array(wheel.profile(name)) for name in ("x", "shear", "slip"))
     width = wheel.get("model.contact_width")
     power = -np.sum(shear * slip) * (x[1] - x[0]) * width
+    print(f"figure: friction.of.profile = {power / wheel.get('heat.friction_power') - 1.0:.1e}")
     assert power == pytest.approx(wheel.get("heat.friction_power"), rel=7e-3)
 
 

@@ -3,11 +3,13 @@
 import shutil
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from documented import blocks
 
 from wheelrail import report, scenario
 from wheelrail.brake import Sander, Valve
@@ -48,6 +50,58 @@ def test_the_controllers_of_the_example_brake_a_coach():
     slide = lambda table: max(report.figures(table)["slide while sliding, p95"][0])
     print(f"slide {slide(table):.1f} %, with threshold 0.3 {slide(loose):.1f} %, built in {slide(usual):.1f} %")
     assert slide(loose) > 1.5 * slide(table) and slide(usual) != slide(table)
+
+
+@pytest.fixture(scope="module")
+def protection(tmp_path_factory):
+    """A protection that is an FMU: file."""
+    compiler = shutil.which("cc")
+    if compiler is None:
+        pytest.skip("no C compiler")
+    folder = tmp_path_factory.mktemp("protection")
+    library = folder / "protection.so"
+    subprocess.run([compiler, "-shared", "-fPIC", "-o", library, Path(__file__).parent / "protection.c"], check=True)
+    variables = "".join(
+        f'<ScalarVariable name="{name}[{axle}]" valueReference="{first + axle - 1}" causality="{causality}" variability="continuous">'
+        f"<Real{start}/></ScalarVariable>"
+        for name, first, causality, start in (("speed", 0, "input", ' start="0"'), ("valve", 4, "output", ""))
+        for axle in range(1, 5)
+    )
+    outputs = "".join(f'<Unknown index="{index}"/>' for index in range(5, 9))
+    with zipfile.ZipFile(folder / "protection.fmu", "w") as packed:
+        packed.write(library, "binaries/linux64/protection.so")
+        packed.writestr(
+            "modelDescription.xml",
+            f'<?xml version="1.0" encoding="UTF-8"?><fmiModelDescription fmiVersion="2.0" modelName="protection" guid="{{1}}">'
+            f'<CoSimulation modelIdentifier="protection"/><ModelVariables>{variables}</ModelVariables>'
+            f"<ModelStructure><Outputs>{outputs}</Outputs></ModelStructure></fmiModelDescription>",
+        )
+    return folder / "protection.fmu"
+
+
+class Nine:
+    """What the FMU does, in Python."""
+
+    def __init__(self, wsp, speeds):
+        pass
+
+    def step(self, h, speeds):
+        """A valve per axle."""
+        return ["vent" if max(speeds) > 1.0 and speed < 0.9 * max(speeds) else "apply" for speed in speeds]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="packs a library for Linux")
+def test_the_class_of_the_page_brakes_by_a_protection_that_is_an_fmu(protection):
+    page = {}
+    exec(next(code for code in blocks()["docs/train.md"] if "class FmuProtection" in code), page)  # noqa: S102
+    tables = []
+    for protector, parameters in ((page["FmuProtection"], {"file": str(protection)}), (Nine, {})):
+        example = builtin(scenario.load(TRAIN / "own_controllers.json", QUICK))
+        example.brake.protection, example.brake.protection_parameters = protector, parameters
+        tables.append(stopped(example))
+    valves = [np.array([report.column(table, "valve", k) for k in range(4)]) for table in tables]
+    assert (valves[0] == Valve.VENT.value).any() and (valves[0] == valves[1]).all()
+    assert report.figures(tables[0])["stopping distance"] == report.figures(tables[1])["stopping distance"]
 
 
 def builtin(example):

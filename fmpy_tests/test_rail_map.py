@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from documented import blocks
 
 from wheelrail.rail_map import RailLaw, RailMap
 
@@ -79,3 +80,14 @@ def test_a_wheel_off_the_map_is_an_error_that_names_the_map():
         rail().friction(100.5, 0)
     with pytest.raises(ValueError, match="leaves the rail map"):
         rail().leave(0, 99.9, 100.2, 0.0, 1.0)
+
+
+def test_the_second_wheel_of_the_page_brakes_harder_on_what_the_first_one_has_cleaned(packed, monkeypatch):
+    monkeypatch.setenv("WHEELRAIL_FMU", str(packed))
+    code, page = next(code for code in blocks()["docs/train.md"] if "RailMap(" in code), {}
+    exec(code, page)  # noqa: S102
+    first, second = (-force for force in page["forces"])
+    met = page["rail"].friction(3.9, 1)
+    print(f"{first:.0f} N, {second:.0f} N on friction {met:.3f}")
+    assert 0.06 < met < 0.25 and first < 0.0605 * 1e5 and second > 1.2 * first
+    assert page["rail"].temperature(3.0, 1, page["now"]) > 0.0

@@ -35,6 +35,7 @@ def stopped(scenario, fmu, dry=None, coach=None):
 def test_a_dry_stop_is_as_long_as_the_closed_form_says_balances_its_energy_and_ends_quietly(coach, fmu):
     table, _ = stopped(coach, fmu, dry=0.3)
     found, expected = distance(table), closed_form(coach)
+    print(f"figure: stop.fmu [m] = {expected:.2f}, {found:.2f} ± 0.001\nfigure: stop.standing [kN] = {max(report.standing(table)):.2f}")
     print(f"{found:.3f} m, closed form {expected:.3f} m; standing {report.standing(table)} kN")
     assert found == pytest.approx(expected, rel=0.005)
     assert max(report.standing(table)) < 0.5
@@ -44,6 +45,7 @@ def test_a_dry_stop_is_as_long_as_the_closed_form_says_balances_its_energy_and_e
     )
     contacts = sum(report.column(table, "energy", k)[-1] for k in range(AXLES))
     kinetic = 0.5 * rolling_mass(coach.vehicle)[1] * coach.speed**2
+    print(f"figure: stop.energy.missing = {1.0 - (brakes + contacts) / kinetic:.1e}")
     print(f"kinetic energy {kinetic:.0f} J, brakes {brakes:.0f} J, contacts {contacts:.0f} J")
     # What is missing swings out in the dampers of the vehicle once the wheels stand.
     assert 0.995 * kinetic < brakes + contacts < kinetic
@@ -104,6 +106,7 @@ def test_a_coach_in_the_fmu_stops_with_a_rigid_one_behind_it_as_both_rigid_ones_
     mixed, _ = stopped(coach, fmu, dry=0.3)
     rigid, _ = stopped(coach, None, dry=0.3)
     hot = [float(report.column(mixed, "hottest", axle)[-1]) for axle in range(2 * AXLES)]
+    print(f"figure: stop.mixed [m] = {distance(rigid):.3f}, {distance(mixed):.3f} ± 0.001")
     print(f"{distance(mixed):.3f} m, both rigid {distance(rigid):.3f} m")
     assert min(hot[:AXLES]) > 273.0 and max(hot[AXLES:]) == 0.0
     assert min(report.known(report.figures(mixed)["peak temperature"][0])) > 0.0

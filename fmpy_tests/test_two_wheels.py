@@ -97,6 +97,7 @@ def test_each_wheel_has_the_force_of_the_common_creepage(fmu, axle):
         motion |= {"drive.omega": seen.omega, "drive.load": LOAD / WHEELS, "rail.friction": 0.25}
         start = {"initial.velocity": seen.velocity, "initial.creepage": creeps[0], "wheel.radius": AXLE.radius}
         with Wheel(fmu, kind | start, motion) as alone:
+            print(f"figure: axle.steady = {force / alone.get('contact.force_x') - 1.0:.1e}")
             print(f"force {force:.1f}, alone {alone.get('contact.force_x'):.1f} N at creepage {creeps[0]:.3e}")
             assert force == pytest.approx(alone.get("contact.force_x"), rel=5e-3)
 

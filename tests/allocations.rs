@@ -31,6 +31,7 @@ fn per_step(thermal: bool) -> (f64, f64) {
 fn a_reduced_coupled_step_allocates_less_than_sixty_five_times() {
     let (calls, bytes) = per_step(true);
     let (mechanical, _) = per_step(false);
+    common::figure("allocations", &[calls, mechanical]);
     println!("with heat {calls:.1} allocations, {bytes:.0} bytes; mechanics alone {mechanical:.1} allocations");
     assert!(calls < 65.0, "{calls} allocations per step");
 }

@@ -56,6 +56,7 @@ fn a_heavy_hub_bounces_with_the_root_of_stiffness_over_mass() {
     let mass = config.wheel.hub_mass + config.material.density * area * config.model.contact_width;
     let expected = (stiffness(&model) / mass).sqrt();
     let found = frequency(&model, expected, 5);
+    figure_within(1e-3, "bounce.heavy [rad/s]", &[expected, found]);
     println!("bounce at {found:.2} rad/s, √(K/m) = {expected:.2} rad/s");
     assert!((found / expected - 1.0).abs() < 0.01, "{found} against {expected} rad/s");
 }
@@ -70,6 +71,7 @@ fn a_bare_wheel_bounces_as_its_eigenvalue_analysis_says() {
     let model = model(config);
     let stiffness = stiffness(&model) / model.config().model.contact_width;
     let found = frequency(&model, 2196.0, 5);
+    figure_within(1e-3, "bounce.bare", &[1e-9 * stiffness, found]);
     println!("stiffness {stiffness:.4e} N/m per metre, frequency {found:.1} rad/s");
     assert!((stiffness / 28.13e9 - 1.0).abs() < 0.01, "{stiffness:e}");
     assert!((found / 2196.0 - 1.0).abs() < 0.005, "{found} rad/s");

@@ -164,6 +164,10 @@ fn creepage_after_cattaneo_develops_to_carter() {
         assert!((found - fine[k]).abs() < tolerance, "s = {} a: {found} against {}", DISTANCES[k], fine[k]);
     }
     let found = loaded[7] - free[7];
+    let off = |k: usize| loaded[k] - free[k] - fine[k];
+    common::figure("cattaneo", &[0, 1, 2, 4, 5, 6, 7].map(off));
+    common::figure_within(0.01, "cattaneo.peak", &[loaded[3] - free[3]]);
+    common::figure_within(1e-3, "cattaneo.late", &[found]);
     println!("after 4 a: {found:.5}, Carter {carter:.5}");
     assert!((found - carter).abs() < 2e-3, "{found} against Carter's {carter}");
 }

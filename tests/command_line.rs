@@ -566,11 +566,13 @@ fn exported_stress_without_friction_is_that_of_hertz() {
         }
         // Vertex of the parabola through the largest nodal value and its neighbours.
         let (depth, von_mises) = vertex(&axis.iter().map(|(z, n)| (*z, stress("von_mises", *n))).collect::<Vec<_>>());
+        common::figure("exported.stress", &[von_mises / (0.558 * p0) - 1.0, depth / (0.704 * a) - 1.0]);
         println!("{name}: von Mises {:.4} p0 at {:.3} a", von_mises / p0, depth / a);
         assert_close(von_mises, 0.558 * p0, 0.02, "largest von Mises stress");
         assert_close(depth, 0.704 * a, 0.04, "its depth");
         let surface = grid.surface(radius, 1.5 * a);
         let pressed = grid.integral("sigma_yy", &surface);
+        common::figure("exported.load", &[-pressed / load - 1.0]);
         println!("{name}: load {:.5}", -pressed / load);
         assert_close(pressed, -load, 0.015, name);
         assert!(grid.integral("sigma_xy", &surface).abs() < 0.01 * load, "{name} carries no shear");

@@ -64,6 +64,8 @@ fn a_static_contact_evens_out_waves_by_the_bessel_function() {
         let found = level(mean(&fine));
         let single = |shares: &[f64]| shares.iter().map(|&s| (level(s) - exact).abs()).fold(0.0, f64::max);
         let spread = [single(&coarse), single(&fine)];
+        common::figure("filter.planes [dB]", &[found - exact]);
+        common::figure("filter.cnossos [dB]", &[found - table]);
         println!(
             "{wavelength} mm: {found:.3} dB, J0 {exact:.3} dB, CNOSSOS {table} dB; single contacts within {spread:.3?} dB"
         );
@@ -114,6 +116,7 @@ fn a_standing_wheel_is_lifted_by_what_the_contact_leaves_of_waves() {
         let exact = mean(&(-3..=4).map(|k| bessel(TAU * half_width(k) / wavelength)).collect::<Vec<_>>());
         let level = |share: f64| 20.0 * share.abs().log10();
         let (found, exact) = (level(mean(&shares)), level(exact));
+        common::figure("filter.wheel [dB]", &[found - exact]);
         println!("standing wheel, {wavelength} m: {found:.3} dB, J0 {exact:.3} dB");
         assert!((found - exact).abs() < 0.2, "{found} {exact}");
     }

@@ -57,6 +57,7 @@ fn a_rigid_turn_of_the_rim_by_five_millimetres_changes_nothing_in_the_contact() 
             let force =
                 Axis::ALL.map(|k| (turned.resultant[k] - found[0].resultant[k]).abs()).into_iter().fold(0.0, f64::max);
             let half_width = found[0].half_width();
+            common::round_off("rim.turned", &[moved / half_width, force / load], 1e-9);
             println!("load {load}, creepage {creepage}: edges {:.1e}, force {:.1e}", moved / half_width, force / load);
             assert!(moved < 1e-6 * half_width && force < 1e-6 * load, "{moved:e} m, {force:e} N/m");
         }
@@ -104,6 +105,7 @@ fn every_random_start_converges_to_the_same_contact_state() {
         worst = worst.max(solution.iterations);
         total += solution.iterations;
     }
+    common::figure("starts.contact", &[worst as f64]);
     println!("iterations: mean {:.2}, worst {worst}", total as f64 / 1000.0);
     assert!(worst <= 30, "{worst}");
 }

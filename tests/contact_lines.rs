@@ -122,6 +122,8 @@ fn compare_to(
         let pull = difference(&one, &several, |name| name == PULL);
         let others = |name: &str| name != PULL && !RATES.contains(&name) && !UNCOMPARED.contains(&name);
         let others = difference(&one, &several, others);
+        let kind = name.split([' ', ',']).next().unwrap_or_default();
+        common::round_off(&format!("lines.{kind}"), &[others.0], 1e-8);
         println!("{name}, {shares:?}: {:.1e} in {}, rates {:.1e} in {}", others.0, others.1, rates.0, rates.1);
         let of_pull = if config.solver.contact == ContactMethod::Patch { 5e-3 } else { tolerance };
         assert!(others.0 < tolerance && rates.0 < 1e-5, "{name} {shares:?}: {others:?} {rates:?}");
@@ -247,6 +249,7 @@ fn a_lower_wheel_takes_more_load_by_the_closed_form_of_hertz() {
         let load = |k: usize| found[k].traction.resultant.height;
         assert!((shares[0] * load(0) + shares[1] * load(1) - NOMINAL).abs() < 1e-9 * NOMINAL);
         let apart = approach(load(0), length) - approach(load(1), length);
+        common::figure("lines.height", &[apart / lower - 1.0]);
         println!("{shares:?}: {:.1} and {:.1} N/m, apart by {apart:e} m", load(0), load(1));
         assert!((apart / lower - 1.0).abs() < 2e-3, "{apart:e} for {lower:e}");
     }
@@ -267,6 +270,7 @@ fn lines_of_different_load_and_friction_each_have_the_creep_force_of_carter() {
             let a = hertz_half_width(load, RADIUS, modulus());
             let full = carter_full_slip(line.friction, a, RADIUS);
             let carter = carter_force(creepage, full) * line.friction * load;
+            common::figure("lines.carter", &[(force - carter) / (line.friction * load)]);
             println!("{creepage:e}: {force:.1} for {carter:.1} N/m under {load:.0} N/m");
             assert!((force - carter).abs() < 3e-3 * line.friction * load);
         }

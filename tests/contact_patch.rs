@@ -1,6 +1,7 @@
 //! Observables of the contact patch on sampled closed forms: Hertz, Carter, and a hot, skewed patch. The grid is
 //! shifted through one cell, so that the edges take every position between the nodes.
 
+mod common;
 use nalgebra::DVector;
 use std::f64::consts::PI;
 use wheelrail::contact::Traction;
@@ -94,10 +95,12 @@ fn discrete_hertz(x: f64, h: f64) -> f64 {
 fn half_width_of_discrete_hertz_patches_is_right_below_grid_scale() {
     let seen = observed(discrete_hertz, |_, _| 0.0);
     let (mean, spread) = statistics(seen.iter().map(|p| p.half_width() - 1.0));
+    common::figure("patch.sampled.half.width", &[spread]);
     println!("half-width: mean {mean:+.2e}, peak to peak {spread:.2e}");
     // 1.8e-3: an edge beyond a node that opens is taken, continuously, from the two nodes further inside.
     assert!(mean.abs() <= 5e-4 && spread <= 2e-3, "mean {mean}, peak to peak {spread}");
     let (mean, spread) = statistics(seen.iter().map(|p| p.pressure_max - 1.0));
+    common::figure("patch.sampled.pressure", &[spread]);
     println!("peak pressure: mean {mean:+.2e}, peak to peak {spread:.2e}");
     assert!(mean.abs() <= 1e-3 && spread <= 1e-3, "mean {mean}, peak to peak {spread}");
 }
@@ -158,6 +161,7 @@ fn peak_pressure_of_a_hot_skewed_patch_is_that_of_the_profile() {
         let peak = (0..20_001).map(|k| pressure(k as f64 / 1e4 - 1.0)).fold(0.0, f64::max);
         let seen = observed(|x, h| cell(x, h, &pressure), |_, _| 0.0);
         let worst = seen.iter().map(|p| (p.pressure_max / peak - 1.0).abs()).fold(0.0, f64::max);
+        common::figure("patch.skewed", &[worst]);
         println!("{name}: largest relative error of the peak {worst:.2e}");
         assert!(worst <= 0.01, "{name}: {worst}");
     }

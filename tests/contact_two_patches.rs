@@ -5,6 +5,7 @@
 //! `p = C |x| √((a² − x²)(x² − b²))` satisfies it with `C = K E*/2` and `a² + b² = S`; the load is
 //! `P = π C (a² − b²)²/8` (Muskhelishvili, *Singular Integral Equations*, §88, for contacts of several intervals).
 
+mod common;
 mod half_planes;
 
 use half_planes::{FRICTION, HalfPlanes, NOMINAL, grid_state, grid_state_mut, modulus};
@@ -96,6 +97,7 @@ fn errors(per_half_width: usize) -> (f64, f64) {
             pressure_error = pressure_error.max((force[i] / h - well.pressure(x[i], load)).abs() / peak);
         }
     }
+    common::figure(&format!("two.patches.{per_half_width}"), &[edge_error, pressure_error]);
     println!(
         "a/{per_half_width}: error of an edge {edge_error:.2e} a, of the pressure {pressure_error:.2e} of its peak"
     );
@@ -147,6 +149,7 @@ fn creep_force_of_two_patches_reverses_with_the_creepage_and_converges() {
             worst[1] = worst[1].max((utilisation(&middle, load, creepage) - exact).abs());
         }
     }
+    common::figure("two.patches.force", &worst);
     println!("largest error of F/μP: a/20 {:.5}, a/40 {:.5}", worst[0], worst[1]);
     assert!(worst[0] < 0.016, "{worst:?}");
     assert!(worst[1] < 0.6 * worst[0], "{worst:?}");
@@ -186,6 +189,7 @@ fn a_cylinder_over_a_sharp_hole_has_the_edges_and_the_pressure_of_the_closed_sol
             (pressure_error, ends) = (pressure_error.max(least), [ends[0].min(end), ends[1].max(end)]);
             assert!((0..x.len()).all(|i| x[i].abs() > hole || force[i] == 0.0));
         }
+        common::figure(&format!("hole.closed.{per_half_width}"), &[edge_error, pressure_error]);
         println!("a/{per_half_width}: error of the outer edge {edge_error:.2e} a, of the pressure {pressure_error:.2e} of its peak, the hole ends {ends:?} fortieths of a spacing from the middle");
         [edge_error, pressure_error]
     });

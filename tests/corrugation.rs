@@ -89,6 +89,7 @@ fn forces_over_waves_are_those_of_the_filtered_wave_on_the_contact_spring() {
         let velocity = speed * KMH;
         let found = amplitude(&model, velocity, length);
         let expected = size * filter * answer(config, TAU * velocity / length);
+        common::figure(if speed < 150.0 { "waves.force" } else { "waves.force.fast" }, &[found / expected - 1.0]);
         println!("{speed} km/h: {:.4} MN, closed form {:.4} MN", 1e-6 * found, 1e-6 * expected);
         assert!((found / expected - 1.0).abs() < tolerance, "{found} {expected}");
     }
@@ -96,6 +97,7 @@ fn forces_over_waves_are_those_of_the_filtered_wave_on_the_contact_spring() {
     let [low, top, high] = [83.0, 86.0, 89.0].map(|speed| amplitude(&model, speed * KMH, length));
     let at = 86.0 + 1.5 * (low - high) / (low - 2.0 * top + high);
     let omega = TAU * at * KMH / length;
+    common::figure_within(1e-3, "waves.peak [rad/s]", &[omega]);
     println!("peak at {omega:.0} rad/s");
     assert!((omega / 2992.0 - 1.0).abs() < 0.01, "{omega}");
 }
@@ -106,10 +108,13 @@ fn the_patch_evens_out_the_first_null_of_its_filter_and_small_waves_act_in_propo
     let model = waved(20, "rail", 0.5e-6, length, DAMPING);
     let velocity = 25.0 * KMH;
     let left = amplitude(&model, velocity, length) / (0.5e-6 * answer(model.config(), TAU * velocity / length));
+    common::figure("waves.null", &[left]);
     println!("at the null {left:.4} of the wave is left");
     assert!(left < 0.03, "{left}");
     let slope = |size: f64| amplitude(&waved(10, "rail", size, 0.05, DAMPING), 50.0 * KMH, 0.05) / size;
     let ratio = slope(5e-6) / slope(1e-6);
+    common::figure_within(2e-3, "waves.proportion", &[ratio]);
+    common::figure_within(0.01, "waves.five", &[ratio - 1.0]);
     println!("5 um act {ratio:.4} times as much in proportion as 1 um");
     assert!((ratio - 1.0).abs() < 0.02);
 }
@@ -133,6 +138,7 @@ fn what_the_hub_does_on_waves_is_stored_and_given_back() {
             moved = moved.max(outputs.stored_energy.abs());
             drive = [drive[0].max(outputs.contact_force_x.abs()), drive[1].max(outputs.contact_moment.abs() / radius)];
         }
+        common::figure("waves.undamped", &[lost / moved]);
         println!("{body}: {lost:.4} J of {moved:.3} J are lost, force and moment over radius up to {drive:.0?} N");
         assert!(lost < 0.02 * moved, "{lost} {moved}");
         let idle = if body == "rail" { drive[1] } else { drive[0] };
@@ -188,6 +194,10 @@ fn what_the_hub_does_on_damped_waves_is_stored_or_dissipated() {
     ];
     for (name, inputs, model) in cases {
         let [lost, moved, damped] = missing(model.clone(), &inputs, length);
+        common::figure(
+            &format!("waves.energy.{}", if name.contains("usual") { &name[18..] } else { "many" }),
+            &[lost / damped],
+        );
         println!("{name}: {lost:.4} J are missing, {damped:.2} J damped, {moved:.2} J moved");
         assert!(lost < 0.02 * moved.min(damped), "{name}: {lost} {moved} {damped}");
     }

@@ -68,6 +68,7 @@ fn torsion_on_the_hub_decays_with_its_ratio_standing_and_rolling() {
         let model = model(config);
         for velocity in [0.0, 20.0] {
             let found = [2e-5, 1e-5].map(|dt| ratio(&ringing_torsion(&model, velocity, dt, 10.0 * TAU / omega)));
+            figure("damping.torsion", &[found[1] / 1e-2 - 1.0]);
             println!("{name}, {velocity} m/s: damping ratios {found:?}");
             assert!((found[1] / 1e-2 - 1.0).abs() < 0.01 && (found[0] / found[1] - 1.0).abs() < 0.01);
         }
@@ -121,6 +122,7 @@ fn bounce_on_the_contact_decays_with_the_damper_between_hub_and_vehicle() {
         let signal = bounce(&model, velocity, guess, 10, 400.0);
         let omega = frequency(&signal, TAU / guess / 400.0);
         let found = ratio(&signal) / (0.5 * damping / (mass * omega));
+        figure("damping.vehicle", &[found - 1.0]);
         println!("{velocity} m/s: {omega:.1} rad/s, found over closed form {found:.4}");
         assert!((found - 1.0).abs() < 0.01);
     }
@@ -138,6 +140,7 @@ fn bounce_on_the_contact_decays_with_rayleigh_damping_standing_and_rolling() {
             let omega = frequency(&signal, TAU / guess / steps);
             ratio(&signal) / (0.01 * omega / guess)
         });
+        figure("damping.rayleigh", &[found[1] - 1.0]);
         println!("{velocity} m/s: found over closed form {found:?}");
         assert!((found[1] - 1.0).abs() < 0.01 && (found[0] - found[1]).abs() < 0.01);
     }
@@ -181,6 +184,7 @@ fn bounce_on_the_contact_decays_with_the_share_of_the_damped_modes() {
         }
     }
     let found = ratio(&signal);
+    figure("damping.modal", &[found / expected - 1.0]);
     println!("damping ratio {found:.4e}, from the shares of the modes {expected:.4e}, at {omega:.1} rad/s");
     assert!((found / expected - 1.0).abs() < 0.01);
 }
@@ -270,6 +274,7 @@ fn rebound_of_a_dropped_wheel_converges_with_the_step_to_the_damped_closed_form(
             println!("ratio {damping_ratio}, step {dt}: losses {losses:+.4?}, mean {mean:+.5}");
             mean
         });
+        figure(&format!("rebound.{}", (100.0 * damping_ratio).round()), &[coarse, middle, fine]);
         assert!(fine.abs() < 0.6 * damping_ratio && (fine - middle).abs() < 0.5 * (middle - coarse).abs());
     }
 }
@@ -313,6 +318,7 @@ fn damped_reduced_and_full_response_agree_within_a_thousandth_of_the_load() {
         b.advance(&inputs, 2e-5).unwrap();
         worst = worst.max(difference(a.outputs(), b.outputs()) / inputs.drive.load);
     }
+    figure("damping.reduced", &[worst]);
     println!("largest difference over the load: stationary {still:.1e}, ramp {worst:.1e}");
     assert!(still < 1e-3 && worst < 1e-3);
 }

@@ -65,6 +65,7 @@ fn default_damping_changes_the_creep_curve_by_less_than_a_ten_thousandth() {
             worst = worst.max((a - b).abs());
         }
     }
+    figure("damping.creep.curve", &[worst]);
     println!("largest change {worst:.1e} of the limit");
     assert!(worst < 1e-4);
 }

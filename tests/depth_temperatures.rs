@@ -53,6 +53,7 @@ fn a_standing_warm_wheel_cools_over_the_depth_as_half_spaces_in_contact_do() {
             }
         }
     }
+    common::figure("depth.standing", &[worst]);
     println!("up to {worst:.2e} of the difference of temperatures");
     assert!(worst < 7e-3, "{worst}");
 }
@@ -94,6 +95,7 @@ fn a_point_of_the_tread_has_over_a_turn_the_temperatures_that_the_field_has_wher
         worst = worst.max(beside(&o.profile_wheel_below, o.temperature_wheel_nominal));
         worst = worst.max(beside(&o.profile_rail_below, o.temperature_rail_nominal));
     }
+    common::round_off("depth.tread [K]", &[worst], 1e-9);
     println!("up to {worst:.1e} K from the field; the point was at {:.2} to {:.2} K", swing[0], swing[1]);
     assert!(worst < 1e-6 && swing[1] - swing[0] > 5.0);
 }

@@ -110,6 +110,7 @@ fn agree(config: Config) -> [usize; 2] {
             }
         }
     }
+    common::figure("derivatives.varying", &[largest]);
     println!("largest error {largest:.1e} of {pairs}, {kinks} at kinks");
     [pairs, kinks]
 }

@@ -70,6 +70,7 @@ fn celsius(kelvin: f64) -> f64 {
 fn drag_braking_heats_the_wheel_to_what_is_observed_whatever_the_step() {
     let reference = brake(|_| (), 1.0);
     let bulk = celsius(reference.end.temperature_wheel_bulk);
+    figure_within(0.002, "drag.bulk [°C]", &[bulk]);
     println!("bulk {bulk:.2} °C, {:.1} MJ into the rail, {:.4} kg", 1e-6 * reference.passed[1], reference.mass());
     assert!((250.0..450.0).contains(&bulk));
     // Rim, web and boss as drawn: 322 kg.
@@ -78,6 +79,10 @@ fn drag_braking_heats_the_wheel_to_what_is_observed_whatever_the_step() {
         let run = brake(|c| c.tuning.tolerance = tolerance, h);
         let off = (celsius(run.end.temperature_wheel_bulk) - bulk) / (bulk - 20.0);
         let rail = run.passed[1] / reference.passed[1] - 1.0;
+        round_off("drag.heat", &[run.residual], 1e-12);
+        if tolerance == 0.0 && h > 1.0 {
+            figure(&format!("drag.step.{h}"), &[off]);
+        }
         println!(
             "steps of {h} s, tolerance {tolerance}: bulk {:+.4} %, heat into the rail {:+.3} %, {} internal steps, residual {:.1e}",
             100.0 * off,

@@ -35,6 +35,7 @@ fn half_planes_with_a_soft_layer_creep_as_a_brush_on_the_grid() {
     };
     for k in [0.05, 0.3, 1.0, 3.0, -0.3] {
         let [coarse, fine] = [10, 40].map(|n| missed(n, k));
+        figure("layer.brush", &[coarse, fine]);
         println!("k {k}: brush {:.4}, missed by {coarse:+.4} (a/10), {fine:+.4} (a/40)", brush(k.abs()));
         assert!(coarse.abs() < 0.03 && fine.abs() < 0.01, "{k}: {coarse}, {fine}");
     }
@@ -73,6 +74,7 @@ fn a_vanishing_layer_is_none_and_points_sideways_agree_with_the_grid() {
         let [ours, theirs] = [&points, &grid].map(|model| start(model, xi));
         let forces = [ours.contact_force_x, theirs.contact_force_x].map(|force| force / 3e4);
         println!("{xi:e}: {forces:.4?} of friction, {:.2} and {:.2} W", ours.friction_power, theirs.friction_power);
+        figure("layer.nodes", &[forces[0] - forces[1], ours.friction_power / theirs.friction_power - 1.0]);
         assert!((forces[0] - forces[1]).abs() < 0.015);
         assert!((ours.friction_power / theirs.friction_power - 1.0).abs() < 0.05);
     }
@@ -101,6 +103,9 @@ fn a_soft_layer_on_an_ellipse_has_the_forces_of_the_simplified_theory_in_both_di
     let across = of(0.0, 1.0, 0.0).contact_force_z - free.contact_force_z;
     let by_spin = of(0.0, 0.0, 1.0).contact_force_z - free.contact_force_z;
     let of_spin = PI * a.powi(3) * b * spin / (4.0 * layer);
+    figure("layer.ellipse", &[-along / expected - 1.0]);
+    figure("layer.ellipse", &[-across / expected - 1.0]);
+    figure("layer.ellipse.spin", &[by_spin.abs() / of_spin - 1.0]);
     println!(
         "along {along:.1}, across {across:.1}, expected {expected:.1} N; by spin {by_spin:.2}, expected {of_spin:.2} N"
     );
@@ -121,6 +126,8 @@ fn slopes_of_bodies_and_layer_add_up_as_springs_in_a_row() {
     let a = start(&model, 0.0).contact_half_width;
     let alone = 2.0 * a * a * model.config().model.contact_width / layer;
     let (found, springs) = (slope(layer), 1.0 / (1.0 / bodies + 1.0 / alone));
+    figure("layer.slope", &[found / springs - 1.0]);
+    figure_within(0.02, "layer.steeper", &[bodies / found]);
     println!("bodies {bodies:.3e}, layer {alone:.3e}, both {found:.3e}, springs in a row {springs:.3e} N");
     assert!((found / springs - 1.0).abs() < 0.15 && found < 0.4 * bodies);
 }

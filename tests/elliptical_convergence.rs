@@ -64,6 +64,7 @@ fn differences<const N: usize>(
     others.map(|numbers| {
         let found = run(numbers);
         let differ = std::array::from_fn(|k| (found[k] / usual[k] - 1.0).abs());
+        figure(&format!("convergence.{}", name.replace(' ', ".")), &differ);
         println!("  {numbers:?}: {found:?}, differs by {}", differ.map(|d: f64| format!("{d:.1e}")).join(", "));
         differ
     })
@@ -183,6 +184,7 @@ fn missing(elements: usize) -> f64 {
         most = most.max((o.hub_work - o.stored_energy - o.damping_energy - o.friction_energy).abs());
         stored = stored.max(o.stored_energy.abs());
     }
+    figure(&format!("ellipse.flat.missing.{elements}"), &[most / stored]);
     println!("{elements} elements: {most:.3} J of {stored:.1} J are missing at most");
     most / stored
 }

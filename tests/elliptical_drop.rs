@@ -82,6 +82,7 @@ fn a_dropped_wheel_strikes_as_hertz_says_and_comes_back() {
             let [force, approach] = [0, 1].map(|k| found[k] / expected[k] - 1.0);
             let o = simulation.outputs();
             let momentum = (impulse - load * time - o.wheel_mass * o.hub_vertical_velocity) / impulse;
+            figure("ellipse.drop", &[force, approach]);
             println!(
                 "{lines} lines, {elements} elements, {step:e} s, from {height:e} m: {:.0} N ({force:+.1e}), {:.2} µm \
                  ({approach:+.1e}), energy {missing:.1e}, momentum {momentum:+.1e}, spring {spring:.3e} m/N",
@@ -113,6 +114,7 @@ fn a_wheel_that_bounces_until_it_rests_has_lost_no_momentum() {
         let o = simulation.outputs();
         let taken = 1e5 * step * count + 1e5 * (o.hub_height - height);
         let (lost, air, left) = (impulse / taken - 1.0, 1e3 * o.contact_lost_time, o.hub_vertical_velocity);
+        figure("ellipse.rest", &[lost]);
         println!("{step} s: {lost:.1e} of {taken:.3} N s; {largest:.0} N, {air:.2} ms in the air, {left:.1e} m/s");
         assert!(lost.abs() < 5e-7 && largest > 2e5 && air > 1.0, "{lost} {largest} {air}");
         assert!(left.abs() < 1e-12 && (o.contact_force_y / 1e5 - 1.0).abs() < 1e-9);
@@ -144,6 +146,7 @@ fn momentum_is_the_impulse_of_forces_that_jump() {
         let mass = end.wheel_mass + config.vehicle.mass;
         let moved = mass * (end.wheel_velocity - start.wheel_velocity) / 2e4 - total;
         let turned = (end.wheel_inertia * (end.wheel_omega - start.wheel_omega) - resistance) / -5e3 - total;
+        round_off("ellipse.jumps", &[(moved / most).abs().max((turned / most).abs())], 1e-10);
         println!("steps of {step} s: {:.1e}, {:.1e} of the largest impulse", moved / most, turned / most);
         assert!(moved.abs() < 1e-9 * most && turned.abs() < 3e-8 * most);
     }

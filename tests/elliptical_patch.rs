@@ -1,6 +1,7 @@
 //! The elliptical patch on lines side by side between two half-spaces, where Hertz has a closed form and CONTACT
 //! references of three-dimensional rolling contact.
 
+mod common;
 mod half_spaces;
 
 use half_spaces::{FRICTION, HalfSpaces, LOAD, SHEAR_MODULUS, SPEED, formula, number, numbers, reference};
@@ -25,6 +26,7 @@ fn half_axes_pressure_and_approach_are_those_of_hertz_from_a_tenth_to_twice_the_
                 worst = worst.max((line.traction.half_width() / (exact.a * root) - 1.0).abs());
                 worst = worst.max((line.traction.pressure_max / (exact.peak * root) - 1.0).abs());
             }
+            common::figure(&format!("ellipse.hertz.{aspect}"), &[worst]);
             println!("{aspect} {lines} {share}: worst {worst:.1e}, load {:.1e}", carried / load - 1.0);
             assert!(worst < 1e-3 && (carried / load - 1.0).abs() < 1e-9);
         }
@@ -46,6 +48,10 @@ fn steady_creep_forces_and_stick_are_those_of_contact() {
                 println!("{aspect} {lines} {xi:.5}: force {:+.4} of {force:.3}, stick {:+.4}", errors[0], errors[1]);
                 worst.iter_mut().zip(errors).for_each(|(worst, error)| *worst = worst.max(error.abs()));
             }
+            if lines == 7 {
+                common::figure(&format!("ellipse.force.{aspect}"), &worst[..1]);
+                common::figure(&format!("ellipse.stick.{aspect}"), &worst[1..]);
+            }
             assert!(worst[0] < 0.01 && worst[1] < 0.02, "{aspect} {lines}: {worst:?}");
         }
     }
@@ -62,6 +68,9 @@ fn creep_coefficients_of_small_creepages_are_those_of_kalker() {
             let linear = 0.02;
             let creepage = linear * FRICTION * LOAD / (SHEAR_MODULUS * a * b * coefficient);
             let found = spaces.utilisation(LOAD, &spaces.steady(-creepage)) / linear;
+            if lines == 7 {
+                common::figure(&format!("ellipse.kalker.{aspect:.2}"), &[found - 1.0]);
+            }
             println!("{aspect} {lines}: {found:.4}");
             assert!((found - 1.0).abs() < 0.02, "{aspect} {lines}: {found}");
         }
@@ -96,7 +105,11 @@ fn creepage_that_jumps_or_swings_and_loads_that_vary_give_the_forces_of_contact(
         }
         for lines in [5, 7, 9] {
             let tolerance = if name == "load3" { 0.004 } else { 0.008 };
-            assert!(transient(case, lines) < tolerance, "{name} {lines}");
+            let worst = transient(case, lines);
+            if lines == 7 || name == "step88" {
+                common::figure(&format!("ellipse.{name}.{lines}"), &[worst]);
+            }
+            assert!(worst < tolerance, "{name} {lines}");
         }
     }
 }
@@ -126,6 +139,8 @@ fn tractions_of_rows_are_those_of_contact() {
                     apart += (ours - shear).abs();
                     sum += shear.abs();
                 }
+                let row = if y == 0.0 { "middle" } else { "half" };
+                common::figure(&format!("ellipse.row.{row}.{:.1}", number(&set["aspect"])), &[apart / sum]);
                 println!("{} xi {xi:.5} y {y:.4}: {:.3}", number(&set["aspect"]), apart / sum);
                 assert!(apart < if y == 0.0 { 0.01 } else { 0.06 } * sum);
             }

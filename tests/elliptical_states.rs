@@ -242,6 +242,9 @@ fn derivatives_are_those_of_the_repeated_step() {
         ("series, prescribed", of_a_step(ellipse(7, 10, true), held, 30, 0.0), 1e-4),
         ("grid, moment and force", of_a_step(grid, rolling, 12, -5000.0), 1e-5),
     ] {
+        if name == "series, moment and force" {
+            round_off("ellipse.derivatives", &[error], 2e-7);
+        }
         println!("{name}: {error:.1e}, {of}");
         assert!(error < tolerance, "{name}: {of}");
     }

@@ -1,6 +1,7 @@
 //! Shift, rolling under held forces and falling friction of the elliptical patch on lines side by side between two
 //! half-spaces, against CONTACT.
 
+mod common;
 mod half_spaces;
 
 use half_spaces::{
@@ -47,6 +48,8 @@ fn a_wheel_is_shifted_without_rolling_as_by_contact() {
             let spaces = HalfSpaces::with_grid(aspect, lines, NODES);
             let shift = shifted(&spaces, until, 9).1;
             let errors: Vec<_> = shift.iter().zip(&expected).map(|(found, mm)| 1e3 * found / mm - 1.0).collect();
+            let worst = errors.iter().fold(0.0, |most: f64, error| most.max(error.abs()));
+            common::figure(&format!("ellipse.{name}.{lines}"), &[worst]);
             println!("{name} {lines}: {errors:+.4?}");
             assert!(errors.iter().all(|error| error.abs() < tolerance));
             if lines == 7 {
@@ -70,6 +73,7 @@ fn a_patch_that_sticks_is_as_stiff_as_that_of_mindlin() {
         let share = 0.01;
         let [shift] = shifted(&spaces, share, 1).1.try_into().unwrap();
         let found = shift / (share * FRICTION * LOAD * compliance);
+        common::figure(&format!("ellipse.mindlin.{aspect}"), &[found.abs() - 1.0]);
         println!("{aspect}: {found:.4}");
         assert!((found.abs() - 1.0).abs() < 0.01, "{aspect}: {found}");
     }
@@ -130,6 +134,9 @@ fn creepage_under_a_held_force_develops_from_a_shift_to_rolling_as_by_contact() 
     ] {
         let held = held(&case, lines, series);
         let Held { worst, rms, crept, settled, .. } = held;
+        if lines > 5 {
+            common::figure(&format!("ellipse.held.{lines}"), &[worst, rms]);
+        }
         println!(
             "{lines} lines, series from {:?}: worst {worst:.4}, rms {rms:.4}, distance crept {crept:.4}, later \
              {settled:.4}",
@@ -185,6 +192,7 @@ fn creep_forces_with_falling_friction_are_those_of_contact() {
             let found = spaces.solve(LOAD, spaces.held(xi), laws, &spaces.start()).unwrap();
             worst = worst.max((spaces.utilisation(LOAD, &found) - force).abs());
         }
+        common::figure("ellipse.falling", &[worst]);
         println!("{lines} lines: {worst:.4}");
         assert!(worst < 0.018);
     }

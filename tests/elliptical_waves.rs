@@ -54,6 +54,7 @@ fn waves_act_with_their_mean_under_a_punch() {
         for waves in [0.25, 0.5, 1.0, 1.5, 2.0] {
             let q = TAU * waves * 0.5;
             let (found, exact) = (answer(2.0 * a / waves) / slope, q.sin() / q);
+            common::figure(&format!("ellipse.waves.{lines}"), &[found - exact]);
             println!("{lines} lines, {waves} waves in the patch: {found:.4} for {exact:.4}");
             assert!((found - exact).abs() < tolerance, "{found} for {exact}");
         }

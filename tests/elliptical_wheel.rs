@@ -78,6 +78,7 @@ fn a_load_that_swings_by_a_third_under_braking_balances_energy() {
         inputs.drive.load = 1e5 * (1.0 + 0.3 * (400.0 * t).sin());
     });
     let worst = seen[400..].iter().fold(0.0, |worst: f64, outputs| worst.max(outputs.energy_residual.abs()));
+    figure("ellipse.swing", &[worst]);
     println!("residual at most {worst:.1e}");
     assert!(worst < 6e-4);
 }
@@ -146,6 +147,7 @@ fn flash_temperatures_are_those_of_the_tractions_of_contact() {
         let seen = run(&model, prescribed(&model, speed, xi), (1e-3, 20), |_, _| {});
         let last = &seen[20];
         let (hottest, expected) = (last.temperature_wheel_max - 293.0, number(&case["hottest"]));
+        figure(&format!("ellipse.flash.{}", (1e3 * xi).round()), &[hottest / expected - 1.0]);
         println!("xi {xi}: {hottest:.2} K for {expected:.2} K, {:+.3}", hottest / expected - 1.0);
         assert!((hottest / expected - 1.0).abs() < 0.035);
         let rows = |key: &str| -> Vec<f64> { case[key].as_array().unwrap().iter().map(number).collect() };
@@ -235,6 +237,9 @@ fn a_patch_that_grows_across_the_rail_becomes_the_plane_contact_of_its_load_per_
             // which Carter has the force of the plane contact.
             let strips = all / of_strips(1.0 - (1.0 - line[0]).sqrt()) - 1.0;
             let errors: [f64; 5] = std::array::from_fn(|k| if k < 4 { found[k] / line[k] - 1.0 } else { strips });
+            if curvature == 0.01 {
+                figure("ellipse.to.plane", &errors[..4]);
+            }
             println!("{curvature}, {share} of full slip: {errors:+.4?}");
             worst.iter_mut().zip(errors).for_each(|(worst, error)| *worst = worst.max(error.abs()));
         }

@@ -34,6 +34,7 @@ fn braking_stop_balances_energy_and_does_not_depend_on_the_communication_step() 
     let model = model(config);
     let coarse = braking_stop(&model, 2e-3);
     let fine = braking_stop(&model, 1e-3);
+    figure("stop.distance", &[coarse.wheel_distance / fine.wheel_distance - 1.0]);
     println!("distance {:.5} m and {:.5} m", coarse.wheel_distance, fine.wheel_distance);
     println!("energy residual {:+.2e} and {:+.2e}", coarse.energy_residual, fine.energy_residual);
     assert!((coarse.wheel_distance / fine.wheel_distance - 1.0).abs() < 5e-4);
@@ -120,6 +121,7 @@ fn an_observer_of_a_moment_brake_finds_the_energy_balance_of_the_model_at_every_
         config.thermal.enabled = heat;
         for step in [1e-4, 1e-3, 5e-3, 2e-2] {
             let [seen, own] = observed(&config, moment, friction, step, 0.4);
+            figure("energy.seen", &[seen, seen - own]);
             println!("{moment} N m, heat {heat}, {} ms: seen {seen:+.2e}, own {own:+.2e}", step * 1e3);
             assert!(seen.abs() < 1e-3 && (seen - own).abs() < 1e-4, "{seen} {own}");
         }
@@ -151,6 +153,7 @@ fn the_balance_holds_while_the_torsion_rings() {
             slips = if k as f64 * step > 0.01 { (slips.0.max(slip), slips.1.min(slip)) } else { slips };
             before = now;
         }
+        figure(&format!("energy.torsion.{}", (step * 1e6).round()), &[before.energy_residual]);
         println!("{} us: slip {slips:.2?} m/s, residual {:+.2e}", step * 1e6, before.energy_residual);
         assert!(before.energy_residual.abs() < 3e-3 && work > dissipated * 0.5);
     }
@@ -184,7 +187,9 @@ fn heat_that_swells_and_pulls_under_a_locked_wheel_is_in_the_balance() {
     for name in ["railway", "railway_ellipse"] {
         let [rings, work] = run(name, 0.02, 1e-4, 0.06);
         assert!(rings.abs() < 4e-4 && work > 2.0, "{name}: {rings:.1e}");
+        figure(&format!("energy.rings.{name}"), &[rings]);
         let [gentle, _] = run(name, 0.2, 1e-2, 0.6);
+        figure(&format!("energy.locked.{name}"), &[gentle]);
         assert!(gentle.abs() < 3e-5, "{name}: {gentle:.1e}");
     }
 }

@@ -66,6 +66,8 @@ impl Drop {
                 worst[3] = worst[3].max(lost.abs() / (load * height));
             }
         }
+        common::round_off("drop.work", &worst[..1], 1e-12);
+        common::figure("drop.missing", &[worst[1], worst[3]]);
         println!(
             "{name}: work {:.1e}, falling {:.1e}, residual {:.1e}, struck {:.1e}",
             worst[0], worst[1], worst[2], worst[3]
@@ -141,6 +143,7 @@ fn residual(config: Config, step: f64, end: f64, load: impl Fn(f64) -> f64) -> [
     }
     let o = simulation.outputs();
     let dissipated = o.friction_energy + o.damping_energy + o.plastic_energy;
+    common::figure("energy.in.the.air", &[o.energy_residual]);
     println!("  {steps} steps, {:.3} of {dissipated:.2} J missing, residual {:+.1e}", missing(o), o.energy_residual);
     assert!((o.hub_work - work).abs() < 1e-6, "work {} J, load times height {work} J", o.hub_work);
     [o.energy_residual, o.contact_lost_time]

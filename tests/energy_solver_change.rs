@@ -95,6 +95,7 @@ fn of_meshes(name: &'static str, heat: bool, drive: &Drive, meshes: &[usize]) ->
         largest[0].max(largest[1])
     };
     let found: Vec<f64> = meshes.iter().map(&mut on).collect();
+    meshes.iter().zip(&found).for_each(|(n, found)| common::figure(&format!("solver.change.{n}"), &[*found]));
     assert!(found[0] < 2e-3, "{name}, heat {heat}: {found:?}");
     assert!(found.windows(2).all(|w| w[1] < 0.8 * w[0]), "{name}, heat {heat}: {found:?}");
     all

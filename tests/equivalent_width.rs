@@ -230,6 +230,7 @@ fn each_equivalent_width_reproduces_its_property_of_the_elliptical_contact() {
     let ellipse = Ellipse::new(config.model.nominal_load, config.wheel.radius, HEAD, modulus(&config));
     let (slope, flash) = (ellipse.creep_slope(&config), ellipse.strip(&config).flash(&config));
     let widths = Widths::new(&config, &ellipse);
+    figure_within(0.002, "width.ellipse", &[ellipse.pressure / 1e6, 1e3 * ellipse.along, slope / 1e6, flash]);
     println!("ellipse: {:.1} MPa, {:.3} mm", ellipse.pressure / 1e6, ellipse.along * 1e3);
     println!("         slope {:.3} MN, flash {flash:.2} K at 1 % and {:.2} m/s", slope / 1e6, config.initial.velocity);
     // Model over ellipse: pressure, half-width, slope, flash.
@@ -238,6 +239,11 @@ fn each_equivalent_width_reproduces_its_property_of_the_elliptical_contact() {
         let given = [line.pressure, line.half_width, line.slope, line.flash];
         let ratios: Vec<f64> =
             given.iter().zip([ellipse.pressure, ellipse.along, slope, flash]).map(|(a, b)| a / b).collect();
+        figure_within(
+            0.005,
+            &format!("width.{}", name.replace('-', ".")),
+            &[line.pressure / 1e6, 1e3 * line.half_width, line.slope / 1e6, line.flash],
+        );
         println!(
             "{name:10} {:6.3} mm: {:.1} MPa, {:.3} mm, {:.3} MN, {:.2} K; over the ellipse {ratios:.4?}",
             width * 1e3,
@@ -256,6 +262,7 @@ fn each_equivalent_width_reproduces_its_property_of_the_elliptical_contact() {
     ];
     for (name, width, documented, property, tolerance) in named {
         let found = ratios(name, width)[property];
+        figure(&format!("equivalent.{}", property + 1), &[found - 1.0]);
         assert!((width - documented).abs() < 1e-4, "{name}: {width:e} m, documented {documented:e} m");
         assert!((found - 1.0).abs() < tolerance, "{name}: {found}");
     }

@@ -177,6 +177,9 @@ fn a_flat_on_its_contact_spring_strikes_as_a_mass_on_half_planes_does() {
         let formula = velocity * LENGTH / config.wheel.radius * (stiffness * mass).sqrt();
         let half_planes = lumped.pass(mass, rest, [velocity, load], approach, [1e-4, 0.03]);
         let [found, coarse, expected] = [&fine.0, &coarse.0, &half_planes].map(|forces| largest(forces) - load);
+        common::figure(&format!("rigid.base.{velocity}"), &[found / expected - 1.0]);
+        common::figure_within(0.02, &format!("rigid.base.force.{velocity} [kN]"), &[1e-3 * found, 1e-3 * expected]);
+        common::figure_within(0.02, &format!("rigid.base.share.{velocity}"), &[found / formula]);
         println!(
             "{velocity} m/s, rings {:.1} rad on the flat: {found:.0} N ({coarse:.0} in steps of twice the length), mass on half-planes \
              {expected:.0} N, formula {formula:.0} N: {:.3} of it",
@@ -204,6 +207,8 @@ fn a_flat_on_a_track_much_softer_than_its_contact_strikes_by_the_formula() {
         let (forces, mass) = pass(&config, velocity, load, 1e-3, after);
         let added = largest(&forces) - load;
         let formula = velocity * LENGTH / config.wheel.radius * (whole * mass).sqrt();
+        common::figure(&format!("soft.track.{}", 1e-6 * stiffness), &[added / formula - 1.0]);
+        common::figure_within(0.02, &format!("soft.track.force.{} [N]", 1e-6 * stiffness), &[added, formula]);
         println!(
             "track of {stiffness:.0e} N/m, K {whole:.3e} N/m, {velocity:.4} m/s: {added:.1} N, formula {formula:.1} N: {:.3}",
             added / formula

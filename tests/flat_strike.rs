@@ -23,6 +23,14 @@ fn strike(elements: usize, yielding: bool) -> [f64; 2] {
         let missing = o.hub_work - o.stored_energy - o.damping_energy - o.friction_energy;
         most = [most[0].max(missing.abs()), most[1].max(o.stored_energy.abs())];
     }
+    common::figure(
+        &format!("strike.{}.{elements}", if yielding { "yielding" } else { "elastic" }),
+        &[most[0] / most[1]],
+    );
+    common::figure(
+        &format!("strike.{}.missing.{elements} [J]", if yielding { "yielding" } else { "elastic" }),
+        &most[..1],
+    );
     println!("{elements} elements, yielding {yielding}: {:.2} J of {:.1} J are missing at most", most[0], most[1]);
     most
 }
@@ -64,6 +72,9 @@ fn the_limit_of_yielding_steel_holds_in_every_step_size() {
     let limit = 2.968_449_6 * preset("railway", 10).material.yield_strength;
     let found = [1e-4, 2e-5, 4e-6].map(|step| {
         let [pressure, force] = pressed(step);
+        let name = (1e6 * step).round();
+        common::figure_within(1e-3, &format!("strike.limit.{name}"), &[pressure / limit]);
+        common::figure_within(0.005, &format!("strike.force.{name} [kN]"), &[1e-3 * force]);
         println!("steps of {step:e} s: {:.4} of the limit, {:.1} kN", pressure / limit, 1e-3 * force);
         assert!((1.0..1.01).contains(&(pressure / limit)), "{step:e} s: {}", pressure / limit);
         force

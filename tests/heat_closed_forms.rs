@@ -1,5 +1,6 @@
 //! Moving heat sources on a half-space; what a body without exchange keeps; mirror images.
 
+mod common;
 mod heat_common;
 use heat_common::*;
 use wheelrail::analytic::moving_source;
@@ -26,6 +27,7 @@ fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
         let exchange = Exchange { friction_power, ..Exchange::default() };
         let (state, _) = heat.stationary(v, 0.0, &exchange).unwrap();
         let t = heat.temperatures(&state);
+        common::figure(&format!("jaeger.{name}"), &[deviation(t.rail_max, reference)]);
         println!("{name}: maximum {:.6e} ({:+.3} %)", t.rail_max, 100.0 * deviation(t.rail_max, reference));
         assert!(deviation(t.rail_max, reference).abs() < 2e-3);
         let mut worst = 0.0_f64;

@@ -1,5 +1,6 @@
 //! Stationary two-body temperatures against independently computed, mesh-converged values.
 
+mod common;
 mod heat_common;
 use heat_common::*;
 use wheelrail::config::Hub;
@@ -8,6 +9,9 @@ use wheelrail::heat::*;
 /// Prints name, value, reference; then asserts the relative deviation accepted for each.
 fn compare(name: &str, pairs: &[(&str, f64, f64, f64)]) {
     for (what, value, reference, _) in pairs {
+        if let Some(kind) = ["maximum", "mean"].into_iter().find(|kind| what.contains(kind)) {
+            common::figure(&format!("heat.steady.{kind}"), &[deviation(*value, *reference)]);
+        }
         println!(
             "{name}: {what} {value:.6e} (reference {reference:.6e}, {:+.3} %)",
             100.0 * deviation(*value, *reference)
@@ -21,6 +25,7 @@ fn compare(name: &str, pairs: &[(&str, f64, f64, f64)]) {
 fn stationary(name: &str, config: &HeatConfig, v: f64, omega: f64, exchange: &Exchange) -> (Temperatures, HeatFlows) {
     let heat = heat(config);
     let (state, flows) = heat.stationary(v, omega, exchange).unwrap();
+    common::round_off("heat.steady.balance", &[flows.relative_imbalance()], 1e-11);
     println!(
         "{name}: {} unknowns, {} iterations, balance {:.1e}",
         heat.unknowns(),

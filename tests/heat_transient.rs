@@ -1,5 +1,6 @@
 //! Transient heat against independently computed values: locked wheel, braking.
 
+mod common;
 mod heat_common;
 use heat_common::*;
 use wheelrail::heat::*;
@@ -33,6 +34,7 @@ fn locked_wheel_after_a_tenth_of_a_second() {
             ("conduction", last.conduction, 26046.99, 5e-3),
         ];
         for (what, value, reference, limit) in pairs {
+            common::figure("heat.locked", &[deviation(value, reference)]);
             println!("  {what} {value:.6e} ({:+.3} %)", 100.0 * deviation(value, reference));
             assert!(deviation(value, reference).abs() < limit);
         }
@@ -72,6 +74,7 @@ fn braking_transient() {
             ("wheel mean at 10 s", t10.wheel_mean, 4.48e-5),
         ];
         for (what, value, reference) in pairs {
+            common::figure("heat.braking", &[deviation(value, reference)]);
             println!("dt = {dt}: {what} {value:.6e} ({:+.3} %)", 100.0 * deviation(value, reference));
             assert!(deviation(value, reference).abs() < 0.01);
         }

@@ -69,6 +69,7 @@ fn momentum_is_the_impulse_of_ramps_and_jumps_of_every_size_at_every_step() {
     for step in [1e-4, 1e-3, 5e-3, 2e-2] {
         for (course, held) in [(ramp, true), (ramp, false), (jumps, true), (waves, true), (waves, false)] {
             let lost = lost(&model, step, held, course);
+            common::figure("impulse", &lost);
             println!("{} ms, held {held}: {lost:?}", step * 1e3);
             assert!(lost[0].abs() < 1e-9 && lost[1].abs() < 3e-8, "step {step} s: {lost:?}");
         }

@@ -113,6 +113,8 @@ fn a_bound_holds_is_told_of_where_it_binds_and_costs_little_accuracy() {
         let residuals = apart(runs, |o| o.energy_residual);
         let [.., centre] = apart(runs, |o| o.wheel_velocity);
         let [.., rim] = apart(runs, |o| 0.46 * o.wheel_omega);
+        common::figure(&format!("limited.{most}"), &[forces[0], temperatures[0]]);
+        common::figure("limited.later", &[forces[2], temperatures[2], centre.max(rim)]);
         println!("{forces:?} of the load, {temperatures:?} K, energy {residuals:?}, {centre:.1e}, {rim:.1e} m/s");
         assert!(forces[0] < force && temperatures[0] < temperature && residuals[0] < energy);
         assert!(forces[2] < 1e-4 && temperatures[2] < 1.0 && residuals[2] < 2e-4);

@@ -55,6 +55,7 @@ fn a_lock_up_does_not_depend_on_the_communication_step() {
             b[1]
         );
     }
+    common::figure("lock.up", &[0, 1].map(|k| long[11][k] / short[11][k] - 1.0));
     assert!(short[11][0] < -3e3 && short[11][1] > 1000.0, "it slides");
     // The first mean holds the sudden onset of braking, which samples of 1 ms sum up only roughly.
     for (a, b) in long.iter().zip(&short).skip(1) {
@@ -85,6 +86,7 @@ fn a_wheel_locked_within_a_millisecond_slides_on_at_any_load_speed_and_temperatu
             });
             sum / 0.015
         });
+        common::figure("stopped.at.once", &[long / short - 1.0]);
         println!("{name}: {long:.0} N with steps of 1 ms, {short:.0} N with 0.1 ms");
         // Hot friction is a tenth of the cold one, 0.3, which is not exceeded.
         let resists = -short * config.initial.velocity.signum() / load;

@@ -101,6 +101,9 @@ fn a_locked_dry_wheel_keeps_the_limits_of_its_steel_whatever_the_step() {
                 assert!(s.superheat < 50.0, "{s:?}");
                 assert!(speed != 60.0 || (1e-3..30e-3).contains(&s.austenitic), "{s:?}");
             }
+            if elements == 10 && speed == 60.0 {
+                common::figure_within(0.03, "locked.ac1 [ms]", &[1e3 * long.austenitic]);
+            }
             let changes = [
                 differ(long.force, short.force),
                 differ(long.temperature, short.temperature),
@@ -160,6 +163,7 @@ fn a_slow_slide_on_yielding_steel_does_not_alternate_from_step_to_step() {
     for h in [2.5e-4, 1e-4] {
         let (seen, residual) = slow_slide(5.0, 0.0, h, [0.5, 0.05]);
         let [force, temperature] = [alternating(&seen, 0, 1.0), alternating(&seen, 1, 0.1)];
+        common::figure(&format!("locked.slow.{}", (1e6 * h).round()), &[force, temperature]);
         println!(
             "steps of {h} s: force alternates in {force:.3}, temperature in {temperature:.3} of them, audit {residual:.1e}"
         );
@@ -178,6 +182,7 @@ fn stick_slip_of_a_hot_slow_slide_is_the_same_in_all_communication_steps() {
         assert!(residual.abs() < 0.02);
         mean
     });
+    common::figure("locked.stick.slip", &[means[0] / means[1] - 1.0]);
     assert!(differ(means[0], means[1]) < 0.04, "{means:?}");
 }
 
@@ -299,7 +304,9 @@ fn friction_of_a_hot_locked_wheel_is_that_of_its_temperature_and_does_not_swing_
         };
         let missed: f64 = seen.iter().map(|[mu, kelvin, _]| (mu / law(*kelvin) - 1.0).abs()).sum::<f64>();
         let missed = missed / seen.len() as f64;
+        common::figure(&format!("locked.law.{}", (1e6 * h).round()), &[missed]);
         let [least, most] = seen.iter().fold([f64::INFINITY, 0.0], |[a, b], [mu, ..]| [mu.min(a), mu.max(b)]);
+        common::figure(&format!("locked.swing.{}", (1e6 * h).round()), &[most / least - 1.0]);
         println!("steps of {h} s: {least:.5} to {most:.5}, {missed:.1e} from the law on average");
         assert!(missed < 0.01 && most < 1.06 * least);
     }
@@ -311,6 +318,8 @@ fn friction_of_a_hot_locked_wheel_is_that_of_its_temperature_and_does_not_swing_
 fn the_hottest_line_of_a_locked_wheel_loses_heat_to_its_neighbours_steadily() {
     let seen = locked_slide("railway_s1002_0mm", 1e-3, [0.1, 0.2]);
     let largest = seen.windows(2).map(|pair| (pair[1][2] - pair[0][2]).abs()).fold(0.0, f64::max);
+    common::figure("locked.line.change [K]", &[largest]);
+    common::figure_within(0.01, "locked.line [K]", &[seen[0][2]]);
     println!("largest change in a step {largest:.1} K of {:.0} K", seen[0][2]);
     assert!(largest < 8.0);
 }

@@ -1,5 +1,6 @@
 //! History of hot material: spots that take over the field of a standing contact and conduct it on by themselves.
 
+mod common;
 use std::f64::consts::PI;
 use wheelrail::damage::{Criteria, Damage, HotSpots, SpotLayout, TreadStep};
 
@@ -120,6 +121,12 @@ fn a_released_half_space_cools_as_in_closed_form() {
     for (excess, t0, dt) in [(1100.0, 2.0, 1e-3), (1100.0, 0.2, 1e-3), (900.0, 5e-3, 1e-4), (1100.0, 2.0, 0.05)] {
         let found = released(&spots, excess, t0, 5.0 * t0, dt).findings();
         let [rate, depth] = closed_form(excess, t0);
+        if dt == 1e-3 {
+            common::figure(
+                &format!("released.{t0}"),
+                &[found.cooling_rate / rate - 1.0, found.ac1_depth / depth - 1.0],
+            );
+        }
         println!(
             "{t0} s, steps of {dt} s: peak {:.1} K ({:.1}), {:.1} K/s ({rate:.1}), Ac1 to {:.4} mm ({:.4}), martensite to {:.4} mm, \
              above Ac1 {:.4} s",
@@ -202,6 +209,7 @@ fn what_was_found_converges_in_mesh_and_step() {
         );
     }
     let errors = all.map(|found| (found.cooling_rate / rate - 1.0).abs().max((found.ac1_depth / depth - 1.0).abs()));
+    common::figure("released.coarse", &errors);
     println!("errors {errors:.5?}");
     assert!(errors[1] < 0.05 && errors[2] < 0.02);
     let [_, usual, fine] = all;

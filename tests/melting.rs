@@ -1,5 +1,6 @@
 //! Melting under a constant heat flux against closed forms and a fine one-dimensional enthalpy solution.
 
+mod common;
 mod heat_common;
 
 use heat_common::{KMH, Run, config, with};
@@ -114,6 +115,7 @@ fn surface_and_molten_thickness_under_a_constant_flux_are_those_of_a_fine_enthal
             let deviation = [found[0] / kelvin - 1.0, if *molten > 0.0 { found[1] / molten - 1.0 } else { 0.0 }];
             let [share, micrometres] = [time / start, 1e6 * molten];
             let [kelvin_off, micrometres_off] = deviation;
+            common::figure(if growth < 1.5 { "melting.fine" } else { "melting" }, &deviation);
             println!(
                 "growth {growth}, {steps} steps, {share:.1} t_m: {kelvin:.1} K ({kelvin_off:+.1e}), {micrometres:.2} µm \
                  ({micrometres_off:+.1e})"

@@ -47,6 +47,8 @@ fn steady_rolling_is_that_of_the_grid_and_of_the_reference() {
             let simulation = Simulation::new(model.clone(), &prescribed(model, 50.0 * KMH, xi)).unwrap();
             (signed_utilisation(&simulation, 0.4), simulation.outputs().clone())
         });
+        figure("points.from.nodes", &[ours.0 - theirs.0]);
+        figure("points.from.reference", &[ours.0 - expected]);
         println!("{xi:e}: patch {:.6}, grid {:.6}, reference {expected:.6}", ours.0, theirs.0);
         assert!((ours.0 - theirs.0).abs() < 1e-3 && (ours.0 - expected).abs() < 1.5e-3);
         let relative = |get: fn(&Outputs) -> f64| get(&ours.1) / get(&theirs.1) - 1.0;
@@ -84,6 +86,9 @@ fn creeps(heat: bool) {
                     let simulation = Simulation::new(model.clone(), &inputs).unwrap();
                     signed_utilisation(&simulation, inputs.drive.friction)
                 });
+                if !heat {
+                    figure(if share < 0.5 { "points.railway.light" } else { "points.railway" }, &[ours - theirs]);
+                }
                 println!(
                     "heat {heat}, {share} of the load, {velocity:.0} m/s, {xi:e}: {ours:.6} and {:.1e}",
                     ours - theirs
@@ -121,6 +126,8 @@ fn creepage_ramps_match_the_reference() {
         let (curve, on_grid) = (creepage_ramp(&patch, duration, 400), creepage_ramp(&grid, duration, 400));
         let differences: Vec<f64> = curve.iter().zip(&reference).map(|(a, b)| a - b).collect();
         let from_grid = curve.iter().zip(&on_grid).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        differences.iter().for_each(|difference| figure("points.ramps", &[*difference]));
+        figure("points.ramps.nodes", &[from_grid]);
         println!("{duration:.0e} s: {curve:.4?}, from the reference {differences:.4?}, from the grid {from_grid:.5}");
         assert!(from_grid < 1e-3);
         for (difference, error) in differences.iter().zip(errors) {
@@ -292,6 +299,7 @@ fn changes_smoothly(elements: usize, heat: bool, h: f64) {
         changes.iter().map(|&k| jump(k).max(jump(k + 1))).fold(0.0, f64::max)
     });
     let on = patch.iter().filter(|on| **on).count();
+    figure(if heat { "points.change.heat" } else { "points.change" }, &largest);
     println!(
         "{elements} elements, heat {heat}, {h} s: changes at {changes:?}, {on} of {steps} steps on the patch, largest jumps \
          {:.1e}, {:.1e}",

@@ -1,5 +1,6 @@
 //! The contact on a single patch between two elastic half-planes, where Hertz and Carter have closed forms.
 
+mod common;
 mod rigid_bodies;
 
 use rigid_bodies::{RigidBodies, SMOOTH, Step};
@@ -84,6 +85,9 @@ fn pressure_is_that_of_hertz_on_a_parabola_to_the_square_of_half_width_over_radi
         let traction = &found.traction;
         let peak = hertz_peak_pressure(load, a);
         let error = (traction.half_width() / a - 1.0).abs().max((traction.pressure_max / peak - 1.0).abs());
+        if load == LOAD {
+            common::figure("points.hertz", &[error]);
+        }
         println!("load {load:e}: {error:.2e} where a²/r² is {:.2e}", (a / RADIUS).powi(2));
         assert!((traction.resultant.height / load - 1.0).abs() < 1e-11);
         assert!(error < 0.5 * (a / RADIUS).powi(2) + 1e-12);
@@ -104,6 +108,7 @@ fn force_and_stick_are_those_of_carter() {
             let full = carter_full_slip(FRICTION, hertz_half_width(load, RADIUS, modulus()), RADIUS);
             let error = utilisation - carter_force(share * full, full);
             let stick = found.traction.stick_fraction - (1.0 - f64::abs(share)).max(0.0);
+            common::figure("points.carter", &[error]);
             println!("load {load:.1e}, {share:5.2} of full slip: force {error:9.2e}, stick {stick:9.2e}");
             assert!(error.abs() < 6e-4 && stick.abs() < 6e-4, "{error} {stick}");
         }
@@ -125,6 +130,7 @@ fn force_has_no_ripple_while_the_load_varies() {
     // Fourth differences of a smooth curve over steps of 1e-3 vanish; a ripple of the amplitude A leaves up to 16 A.
     let fourth = |w: &[f64]| (w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4]).abs() / 16.0;
     let ripple = forces.windows(5).map(fourth).fold(0.0, f64::max);
+    common::round_off("points.ripple", &[ripple], 1e-11);
     println!("ripple {ripple:.1e} of the friction limit");
     assert!(ripple < 1e-9);
 }

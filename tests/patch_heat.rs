@@ -48,6 +48,9 @@ fn a_wheel_with_heat_moves_as_on_the_grid_and_its_energy_is_accounted_for() {
         let warmth = worst(|o| o.temperature_wheel_max, rise);
         let energy = last.friction_power * 0.07;
         let residual = ours.iter().map(|o| o.energy_residual.abs()).fold(0.0, f64::max) / energy;
+        if share > 0.5 {
+            figure("points.heat", &[force, pressure, residual]);
+        }
         println!(
             "{share} of the load, {moment:.0} N m, {step:.0e} s: F/muP {force:.1e}, pressure {pressure:.1e}, rise {rise:.2} K \
              within {warmth:.1e}, residual {residual:.1e}"
@@ -69,6 +72,7 @@ fn the_temperature_on_the_patch_is_the_one_to_which_the_grid_converges() {
     };
     let ours = rise(ContactMethod::Patch, 20);
     let [coarse, fine] = [20, 40].map(|elements| rise(ContactMethod::Grid, elements) / ours - 1.0);
+    figure("points.rise", &[coarse, fine]);
     println!("rise {ours:.4} K on the patch; on the grid {coarse:+.2e}, with twice as many elements {fine:+.2e}");
     assert!(fine.abs() < 0.6 * coarse.abs() && fine.abs() < 4e-3);
 }
@@ -90,6 +94,9 @@ fn a_chilled_tread_changes_the_creepage_of_free_rolling_by_what_the_grid_tends_t
     };
     let ours = [10, 20, 40].map(|elements| shift(ContactMethod::Patch, elements));
     let theirs = [20, 40].map(|elements| shift(ContactMethod::Grid, elements));
+    let scaled = |shifts: &[f64]| shifts.iter().map(|shift| 1e5 * shift).collect::<Vec<_>>();
+    figure_within(0.05, "points.chill", &scaled(&ours));
+    figure_within(0.05, "nodes.chill", &scaled(&theirs));
     println!("shift on the patch {ours:?} with 10, 20, 40 elements, on the grid {theirs:?} with 20, 40");
     assert!(ours.iter().all(|shift| (shift / ours[2] - 1.0).abs() < 0.3));
     let away = theirs.map(|shift| shift - ours[2]);
@@ -140,6 +147,7 @@ fn the_rise_in_steady_braking_on_the_default_mesh_is_within_two_per_mille_of_tha
         simulation.outputs().temperature_wheel_max - simulation.model().config().thermal.reference
     };
     let [usual, fine] = [None, Some(40)].map(rise);
+    figure("braking.rise", &[usual / fine - 1.0]);
     println!("rise {usual:.4} K on the default mesh, {fine:.4} K with 40 elements");
     assert!(usual > 4.0 && (usual / fine - 1.0).abs() < 2e-3);
 }

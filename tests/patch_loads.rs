@@ -31,6 +31,8 @@ fn patches_grow_with_the_third_root_from_a_hundredth_to_three_times_the_nominal_
             let found = seen(share);
             let errors = [0, 1, 2].map(|k| found.0[k] / nominal.0[k] / share.cbrt() - 1.0);
             let force = found.1 - nominal.1;
+            errors.iter().for_each(|error| common::figure("patch.loads.size", &[*error]));
+            common::figure("patch.loads.force", &[force]);
             println!("{name}, {share}: pressure, length, width {errors:?}, force {force:+.4} of {:.3}", nominal.1);
             assert!(errors.iter().all(|error| error.abs() < 2e-3), "{errors:?}");
             assert!(force.abs() < 0.015, "{force}");

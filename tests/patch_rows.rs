@@ -57,11 +57,18 @@ fn creep_forces_and_pressures_of_real_profiles_are_those_of_contact() {
                 let last = rolling(&model, -xi);
                 let found = last.contact_force_x / (0.3 * last.contact_force_y);
                 let of_pressure = last.contact_pressure_max / pressure - 1.0;
+                figure(&format!("real.{name}"), &[found - expected, of_pressure]);
                 println!(
                     "{name}, {lines} lines, {xi}: force {:+.4}, stick {:+.3}, pressure {of_pressure:+.4}",
                     found - expected,
                     last.contact_stick_fraction - stick
                 );
+                let case = cases.iter().position(|[other, ..]| *other == xi).unwrap() + 1;
+                figure_within(1e-3, &format!("rows.{name}.{lines} [MPa]"), &[1e-6 * last.contact_pressure_max]);
+                if lines == 7 {
+                    figure(&format!("rows.force.{name}.{case}"), &[found - expected]);
+                    figure(&format!("rows.stick.{name}.{case}"), &[last.contact_stick_fraction - stick]);
+                }
                 assert!((found - expected).abs() < 0.012, "{found} for {expected}");
                 assert!((last.contact_stick_fraction - stick).abs() < 0.055);
                 assert!(of_pressure.abs() < 0.012);
@@ -91,6 +98,7 @@ fn rows_of_an_ellipse_are_that_ellipse() {
         ];
         worst.iter_mut().zip(differences).for_each(|(worst, d)| *worst = worst.max(d.abs()));
     }
+    figure("rows.of.ellipse", &[worst[0].max(worst[1]), worst[3]]);
     println!("forces along x and y, pressure, approach, width: {worst:?}");
     assert!(worst[0] < 5e-3 && worst[1] < 1e-3 && worst[2] < 0.015 && worst[3] < 2e-3 && worst[4] < 2e-3);
     let residuals = [&of_ellipse, &of_rows].map(|seen| seen[40].energy_residual);

@@ -74,6 +74,9 @@ fn a_locked_wheel_slides_with_all_the_friction_of_its_load_and_turns_its_way_int
         let lost = (half.wheel_distance - last.wheel_distance).abs() * limit;
         let power: f64 = seen[seen.len() / 2..].iter().map(|o| o.friction_power * h).sum();
         let force = last.contact_force_x + limit * speed.signum();
+        round_off("slide.force", &[force / limit], 1e-12);
+        figure("slide.work", &[power / lost - 1.0]);
+        figure("slide.residual", &[last.energy_residual]);
         println!(
             "{speed} m/s, {share} of the load, brake {brake}, {h} s: force {:.1e} off, work {:.1e} off, residual {:.1e}",
             force / limit,
@@ -106,6 +109,7 @@ fn a_brake_locks_the_wheel_and_lets_it_go_as_on_the_grid() {
         let force = apart(&runs, |o| o.contact_force_x) / limit;
         let [speed, turn] = [apart(&runs, |o| o.wheel_velocity), 0.46 * apart(&runs, |o| o.wheel_omega)];
         let residual = runs.each_ref().map(|seen| seen[seen.len() - 1].energy_residual);
+        figure("brake.apart [m/s]", &[turn]);
         println!(
             "falling to {falling}, {h} s: held {held:?}, force {force:.1e}, {speed:.1e} and {turn:.1e} m/s, {residual:?}"
         );
@@ -146,6 +150,7 @@ fn falling_friction_sticks_and_slips_as_on_the_grid() {
         });
         let early = runs.each_ref().map(|seen| seen[..(0.03 / h) as usize].to_vec());
         let early = apart(&early, |o| o.contact_force_x / o.contact_force_y);
+        ours.iter().zip(&theirs).for_each(|(a, b)| figure("stick.slip.nodes", &[a - b]));
         println!("{h} s: mean and range {ours:.5?}, on the grid {theirs:.5?}; {early:.1e} apart before it starts");
         assert!(early < 2e-3);
         assert!(ours.iter().zip(&theirs).all(|(a, b)| (a - b).abs() < 6e-3), "{ours:?} {theirs:?}");

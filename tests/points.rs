@@ -40,6 +40,7 @@ fn forces_after_jumps_of_the_creepage_are_those_of_the_grid() {
     let errors: Vec<f64> = ours.iter().zip(&theirs).map(|(a, b)| (a - b).abs()).collect();
     let worst = errors.iter().fold(0.0_f64, |worst, error| worst.max(*error));
     let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
+    figure("points.jumps", &[worst, rms]);
     println!("from the grid at most {worst:.1e} of friction, rms {rms:.1e}");
     assert!(worst < 1e-3 && rms < 3e-4);
 }

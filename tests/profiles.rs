@@ -48,6 +48,7 @@ fn over_the_hole(elements: usize, step: f64) -> (f64, f64, u64) {
 #[test]
 fn a_hole_unloads_the_contact_splits_it_in_two_and_is_left_with_a_small_peak() {
     let (coarse, fine) = (over_the_hole(40, 5e-6), over_the_hole(40, 2.5e-6));
+    common::figure_within(5e-4, "hole.force", &[fine.0, fine.1]);
     println!("least and largest force over load, patches: {coarse:.5?}, half the step {fine:.5?}");
     assert!((fine.0 - 0.974).abs() < 3e-3 && (fine.1 - 1.0058).abs() < 3e-3 && fine.2 == 2, "{fine:?}");
     assert!((coarse.0 - fine.0).abs() < 2e-3 && (coarse.1 - fine.1).abs() < 2e-3, "{coarse:?} {fine:?}");
@@ -84,6 +85,7 @@ fn the_force_over_short_holes_errs_by_less_than_the_guard_says() {
         let fine = least(40);
         for elements in [10, 20] {
             let (error, said) = ((least(elements) - fine).abs(), said(elements, size));
+            common::figure("holes.said", &[error / said]);
             println!(
                 "{size} half-widths, {elements} elements: least force {fine:.5}, error {error:.1e}, said {said:.1e}"
             );
@@ -191,6 +193,7 @@ fn a_flat_hits_hardest_at_a_moderate_speed_and_throws_the_wheel_off_the_rail() {
 fn a_flat_of_60_mm_runs_at_every_speed_and_converges_in_step_and_mesh() {
     for speed in [20.0, 30.0, 40.0, 60.0, 80.0, 100.0, 140.0] {
         let found = [(6, 2e-5), (6, 1e-5), (10, 1e-5), (20, 1e-5)].map(|(n, dt)| impact(0.06, "fresh", speed, n, dt));
+        found[..3].iter().for_each(|f| common::figure("flat.converges", &[f.0 / found[3].0 - 1.0]));
         println!("60 mm at {speed} km/h: {found:.4?}");
         assert!(found[..3].iter().all(|f| (f.0 / found[3].0 - 1.0).abs() < 0.02), "{found:?}");
         assert!(found[3].0 > 3e5 && found[3].1 > 2e-3);
@@ -253,6 +256,7 @@ fn a_dipped_joint_makes_the_force_p1_of_jenkins_on_a_rigid_base() {
     let outputs = run(&mut simulation, &inputs, 1e-4, 1450);
     let added = outputs.iter().map(|o| o.contact_force_y).fold(0.0, f64::max) - inputs.drive.load;
     let expected = angle * velocity * (stiffness * outputs[0].wheel_mass).sqrt();
+    common::figure_within(5e-3, "joint.jenkins [N]", &[expected, added]);
     println!("P1 adds {added:.1} N, closed form {expected:.1} N");
     assert!((added / expected - 1.0).abs() < 0.05, "{added} {expected}");
 }

@@ -17,6 +17,7 @@ fn reduced_and_full_response_agree_within_a_thousandth_of_the_load() {
         let run = |model: &std::sync::Arc<_>| Simulation::new(std::sync::Arc::clone(model), &inputs).unwrap();
         let (a, b) = (run(&reduced), run(&full));
         let difference = (a.outputs().contact_force_x - b.outputs().contact_force_x).abs() / inputs.drive.load;
+        figure("reduced.stationary", &[difference]);
         println!("stationary, xi = {creepage}: {difference:.2e} of the load");
         assert!(difference <= 1e-3);
     }
@@ -33,6 +34,7 @@ fn reduced_and_full_response_agree_within_a_thousandth_of_the_load() {
         worst = worst.max((a.contact_force_x - b.contact_force_x).abs() / inputs.drive.load);
         worst = worst.max((a.contact_force_y - b.contact_force_y).abs() / inputs.drive.load);
     }
+    figure("reduced.ramp", &[worst]);
     println!("1 ms ramp: largest difference {worst:.2e} of the load");
     assert!(worst <= 1e-3);
 }

@@ -32,6 +32,7 @@ fn compressed_surface_is_warmer_by_the_adiabatic_temperature_of_hertzian_stress(
     let expected = per_stress(&config) * 2.0 * seen.contact_pressure_max;
     for (found, name) in [(seen.temperature_wheel_nominal, "wheel"), (seen.temperature_rail_nominal, "rail")] {
         let rise = found - config.thermal.reference;
+        common::figure("reversible", &[rise / expected - 1.0]);
         assert!((rise / expected - 1.0).abs() < 0.02, "{name}: {rise:.4} K, closed form {expected:.4} K");
     }
     let outside = seen.profile_temperature_wheel[0] - config.thermal.reference;

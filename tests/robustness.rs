@@ -16,6 +16,7 @@ fn a_thousand_random_starts_converge_without_shortening_a_step() {
     let model = model(config);
     let found = (1..=4).into_par_iter().map(|seed| random_starts(&model, seed, 250));
     let (worst, total) = found.reduce(|| (0, 0), |a, b| (a.0.max(b.0), a.1 + b.1));
+    figure("starts.steps", &[worst as f64]);
     println!("iterations: mean {:.2}, worst {worst}", total as f64 / 1000.0);
     assert!(worst <= 30, "{worst}");
 }

@@ -62,6 +62,10 @@ fn the_density_of_the_force_widens_with_speed_and_unsprung_mass_and_moves_with_t
     let by_load = [3.7, 5.7].map(|load| forces(&bare, 75.0, load));
     let more = forces(&heavy, 75.0, 4.7);
     let told = |forces: &Vec<f64>| [mean(forces), deviation(forces), width(forces)];
+    common::figure_within(0.02, "rough.deviation [MN]", &by_speed.each_ref().map(|forces| deviation(forces)));
+    common::figure_within(0.02, "rough.heavy [MN]", &[deviation(&more)]);
+    common::figure_within(0.02, "rough.loads.mean [MN]", &by_load.each_ref().map(|forces| mean(forces)));
+    common::figure_within(0.02, "rough.loads.deviation [MN]", &by_load.each_ref().map(|forces| deviation(forces)));
     println!("25 to 100 km/h: mean, deviation, 5 to 95 % [MN] {:.4?}", by_speed.each_ref().map(told));
     println!("3.7, 5.7 MN: {:.4?}; 1 t on the hub {:.4?}", by_load.each_ref().map(told), told(&more));
     for pair in by_speed.windows(2) {

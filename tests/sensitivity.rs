@@ -82,6 +82,7 @@ fn agree(
             assert!(error < relative, "d {output} / d {input}: {found:e}, differences {expected:e}, error {error:.1e}");
         }
     }
+    common::figure("derivatives.step", &[largest]);
     println!("largest error {largest:.1e}");
 }
 

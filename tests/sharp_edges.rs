@@ -56,6 +56,8 @@ fn neither_force_nor_energy_depends_on_the_depth_of_a_hole_beyond_what_touches()
     for (shape, of_wheel) in [(rail, false), (wheel, true)] {
         for free in [true, false] {
             let [shallow, deep] = [1e-4, 1e-2].map(|depth| over(shape, depth, of_wheel, free));
+            shallow.iter().zip(deep).for_each(|(a, b)| common::round_off("edges.depth", &[a - b], 1e-9));
+            common::figure("edges.residual", &deep[3..]);
             println!("{shape}, free hub: {free}: force x, moment, residuals {shallow:?}, 10 mm deep {deep:?}");
             for (shallow, deep) in shallow.iter().zip(deep) {
                 // Strikes magnify what iterations leave, 1e-11 of friction.
@@ -76,6 +78,8 @@ fn what_is_missing_while_an_edge_passes_falls_with_the_element_and_not_with_the_
         let missing = |elements: usize, steps: f64| on_mesh(shape, depth, false, true, (elements, steps), false)[2];
         let [coarse, short, fine] =
             [(ELEMENTS, STEPS), (ELEMENTS, 3.0 * STEPS), (FINE, 3.0 * STEPS)].map(|(n, steps)| missing(n, steps));
+        let name = if shape == hole { "hole".into() } else { format!("raised.{}", (1e6 * depth).round()) };
+        common::figure(&format!("edges.{name}"), &[fine / short]);
         println!(
             "{shape}, {depth:e} m: residual {coarse:.4}, a third of the step {short:.4}, on the fine mesh {fine:.4}"
         );
@@ -114,6 +118,11 @@ fn steel_that_yields_under_a_passing_edge_gives_its_work_back() {
     ] {
         for elements in [ELEMENTS, 2 * ELEMENTS] {
             let found = on_mesh(shape, depth, wheel, free, (elements, 3.0 * STEPS), true);
+            let high = end > 0.1;
+            common::figure(
+                &if high { format!("edges.yielding.high.{elements}") } else { "edges.yielding".into() },
+                &found[3..],
+            );
             println!("{shape}, {depth:e} m, wheel: {wheel}, free hub: {free}, {elements} elements: {found:?}");
             assert!(found[2] < passing && found[3] < end, "{found:?}");
         }

@@ -109,6 +109,7 @@ fn a_locked_wheel_bears_the_slip_line_pressure_of_its_friction() {
         let o = run.0.outputs();
         let limit = sliding(friction) * SHEAR;
         let mean = 1.3e5 / (2.0 * o.contact_half_width * 0.014 * limit);
+        common::figure("sheared.limit", &[most / limit - 1.0]);
         println!(
             "friction {friction}, {direction:+}, {elements} elements, {h} s: pressure {:.4} and mean {mean:.4} of {:.3} k, adhesion \
              {:.5}, shear {:.4} k, half-width {:.4} mm, plastic {:.3} J of {:.1} J of friction, missing {:+.2e} J, residual {:.1e}",
@@ -192,6 +193,7 @@ fn work_of_sheared_yielding_closes_the_energy_audit() {
         lead(&mut run, [2e4, 0.02], [0.02, h], |_| ());
         lead(&mut run, [1.3e5, 0.02], [0.1, h], |_| ());
         let o = run.0.outputs();
+        common::figure("sheared.missing", &[missing(o) / o.plastic_energy]);
         println!(
             "friction {friction}, {elements} elements, {h} s: plastic {:.4} J, friction {:.3} J, missing {:+.2e} J",
             o.plastic_energy,

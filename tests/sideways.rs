@@ -1,6 +1,7 @@
 //! Lateral creepage and spin of the elliptical patch on lines side by side between two half-spaces, on points that move with the
 //! patch and on fixed nodes, against CONTACT.
 
+mod common;
 mod half_spaces;
 
 use half_spaces::{FRICTION, HalfSpaces, LOAD, Lines, SPEED, formula, number, numbers};
@@ -52,10 +53,29 @@ fn errors(spaces: &HalfSpaces, set: &Json, kind: &str) -> [f64; 3] {
     worst
 }
 
+/// Prints the errors of a kind of steady cases that stand on pages.
+fn told(label: &str, kind: &str, errors: [f64; 3]) {
+    let name = format!("sideways.{}.{kind}", label.replace(' ', "."));
+    let nodes = label.starts_with("nodes");
+    match kind {
+        "eta" | "phi" if !nodes || label.ends_with(" 20") => common::figure(&name, &errors[1..]),
+        "mixed" => {
+            if label.ends_with(if nodes { " 20" } else { " 7" }) {
+                common::figure(&name, &errors);
+            }
+            if !nodes {
+                common::figure(&format!("{name}.worst"), &[errors.into_iter().fold(0.0, f64::max)]);
+            }
+        }
+        _ => (),
+    }
+}
+
 /// Kinds of steady cases whose largest errors of forces and moment are beyond `most`.
 fn missed(spaces: &HalfSpaces, set: &Json, label: &str, most: impl Fn(&str) -> [f64; 3]) -> Vec<String> {
     let beyond = |kind: &&str| {
         let errors = errors(spaces, set, kind);
+        told(label, kind, errors);
         println!("{label} {kind}: {errors:.4?}");
         errors.iter().zip(most(kind)).any(|(error, most)| *error > most)
     };
@@ -91,7 +111,7 @@ fn steady_forces_on_nodes_under_creepage_and_spin_are_those_of_contact() {
         for nodes in [10, 20, 40] {
             let (spaces, spin) =
                 (HalfSpaces::sideways_on_nodes(aspect, 7, nodes), if aspect < 1.0 { 0.021 } else { 0.013 });
-            let found = missed(&spaces, set, &format!("{aspect:.1} {nodes} nodes"), |kind| match kind {
+            let found = missed(&spaces, set, &format!("nodes {aspect:.1} {nodes}"), |kind| match kind {
                 "xi" => [0.006, 1e-3, 1e-3],
                 "eta" => [1e-3, if aspect > 1.5 { 0.012 } else { 0.007 }, 0.006],
                 "phi" => [0.001, spin, spin],
@@ -131,6 +151,10 @@ fn creepage_and_spin_that_jump_give_the_forces_of_contact() {
                 worst[k] = worst[k].max((found[k] - expected[k][step]).abs());
             }
         }
+        common::figure(
+            &format!("sideways.jump.{}", run["name"].as_str().unwrap()),
+            &[worst.into_iter().fold(0.0, f64::max)],
+        );
         println!("{}: {worst:.4?}", run["name"]);
         let most = if run["name"] == "mix" { 0.010 } else { 0.015 };
         assert!(worst.iter().all(|worst| *worst < most));
@@ -148,6 +172,7 @@ fn without_lateral_creepage_and_spin_forces_are_those_of_the_longitudinal_patch(
             x - along.utilisation(LOAD, &along.steady(xi))
         };
         let errors: Vec<_> = [-1e-4, -5e-4, -1e-3, -2e-3, -4e-3].map(difference).to_vec();
+        errors.iter().for_each(|error| common::figure("sideways.along", &[*error]));
         println!("{aspect}: {errors:+.5?}");
         assert!(errors.iter().all(|error| error.abs() < 2e-3));
     }
@@ -181,6 +206,15 @@ fn creep_coefficients_of_small_creepages_and_spins_are_those_of_kalker() {
             let spaces = HalfSpaces::sideways(aspect, lines);
             let found = creep_coefficients(&spaces, kalker[0]);
             let errors: [f64; 4] = std::array::from_fn(|k| found[k] / kalker[k] - 1.0);
+            if lines == 7 {
+                common::figure(
+                    &format!("sideways.kalker.{aspect:.1}"),
+                    &[errors[0].abs().max(errors[1].abs()).max(errors[2].abs())],
+                );
+            }
+            if lines == 7 || lines == 13 {
+                common::figure(&format!("sideways.c33.{aspect:.1}.{lines}"), &errors[3..]);
+            }
             println!("{aspect} {lines}: {errors:+.4?}");
             let most = if lines == 7 { [0.02, 0.02, 0.02, 0.032] } else { [0.02, 0.02, 0.02, 0.06] };
             assert!(errors.iter().zip(most).all(|(error, most)| error.abs() < most), "{aspect} {lines}");
@@ -228,6 +262,9 @@ fn real_patches_with_their_spin_have_the_forces_of_contact() {
                 // Creepage and forces there are those of the rail.
                 let [x, z, _] = forces(&spaces, &steady(&spaces, [-xi, 0.0, -phi]));
                 let errors = [x + along, z + across];
+                if lines == 7 {
+                    common::figure("sideways.real", &errors);
+                }
                 println!("{} {lines}: {errors:+.4?} of {:.4?}", patch["y_mm"], [-along, -across]);
                 assert!(lines != 7 || errors[0].abs() < 0.012 && errors[1].abs() < 0.008);
             }

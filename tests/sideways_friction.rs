@@ -1,6 +1,7 @@
 //! Friction that falls with the slip along and across the elliptical patch on lines side by side, on points that move with
 //! the patch and on fixed nodes: against CONTACT along, and across by symmetry.
 
+mod common;
 mod half_spaces;
 
 use half_spaces::{HalfSpaces, LOAD, SPEED, number, numbers, reference};
@@ -41,6 +42,10 @@ fn creep_forces_along_are_those_of_contact_where_lines_take_lateral_forces() {
             .zip(numbers(&case["Fx"]))
             .map(|(xi, force)| forces(&spaces, [xi, 0.0])[0] - force)
             .collect();
+        common::figure(
+            &format!("sideways.falling.{name}"),
+            &[errors.iter().fold(0.0, |most: f64, error| most.max(error.abs()))],
+        );
         println!("{name}: {errors:+.4?}");
         assert!(errors.iter().all(|error| error.abs() < 0.018), "{name}");
     }
@@ -59,6 +64,7 @@ fn without_poissons_ratio_a_creepage_across_a_circle_has_the_force_of_one_along(
                 let [x, z] = forces(&spaces, [xi * cos, xi * sin]);
                 [x * cos + z * sin - along, z * cos - x * sin]
             });
+            turned.as_flattened().iter().for_each(|difference| common::figure("sideways.isotropic", &[*difference]));
             println!("{xi} {lines}: {along:.4}, {turned:+.4?}");
             assert!(turned.as_flattened().iter().all(|difference| difference.abs() < 5e-4));
         }

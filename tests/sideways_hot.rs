@@ -44,6 +44,14 @@ fn a_wheel_that_locks_yields_as_in_one_direction_and_as_its_mirror_image() {
     println!("{:?}\n{:?} {}\n{:?}\n{:?}", seen(&along), seen(&straight.0), straight.1, seen(&right.0), seen(&left.0));
     assert!(straight.1 > 50, "the locked wheel yields on fixed nodes");
     let (straight, right, left) = (straight.0, right.0, left.0);
+    let ratio = |of: fn(&Outputs) -> f64| of(&straight) / of(&along) - 1.0;
+    figure(
+        "sideways.locked",
+        &[ratio(|it| it.contact_force_x), straight.temperature_rail_max - along.temperature_rail_max],
+    );
+    figure("sideways.yields", &[ratio(|it| it.contact_pressure_max), ratio(|it| it.plastic_energy)]);
+    round_off("sideways.locked.mirror", &[right.contact_force_z / left.contact_force_z + 1.0], 1e-8);
+    round_off("sideways.locked.mirror", &[right.contact_force_x / left.contact_force_x - 1.0], 1e-8);
     assert!(close(straight.contact_force_x, along.contact_force_x, 1e-3));
     assert!((straight.temperature_rail_max - along.temperature_rail_max).abs() < 2.0);
     assert!(close(straight.contact_pressure_max, along.contact_pressure_max, 2e-3));
@@ -79,6 +87,9 @@ fn energy_is_kept_while_everything_varies_on_worn_flattened_and_even_surfaces() 
             inputs.drive.spin = 0.3 * (170.0 * t).cos();
         });
         let last = &seen[100];
+        if ["even", "worn", "flattened"].contains(&name) {
+            figure(&format!("sideways.energy.{name}"), &[last.energy_residual]);
+        }
         println!("{name}: residual {:.1e} of {:.1} J", last.energy_residual, last.friction_energy);
         assert!(last.friction_energy > 1.0 && last.energy_residual.abs() < 2e-3, "{name}");
         // On a slope pressure pushes along, too, and its power counts as that of friction.
@@ -101,6 +112,7 @@ fn a_flat_is_run_over_as_in_one_direction() {
     let farthest =
         |of: fn(&Outputs) -> f64| both.iter().zip(&along).map(|(a, b)| (of(a) - of(b)).abs()).fold(0.0, f64::max);
     let [normal, force] = [farthest(|it| it.contact_force_y), farthest(|it| it.contact_force_x)];
+    figure("sideways.flat [N]", &[normal, force]);
     println!("largest differences {normal:.1} N, {force:.1} N");
     assert!(normal < 1e2 && force < 3e2);
 }
@@ -110,6 +122,10 @@ fn a_flat_is_run_over_as_in_one_direction() {
 fn a_surface_that_melts_slides_as_in_one_direction() {
     let melting = |config: &mut Config| (config.material.latent_heat, config.initial.velocity) = (2.7e5, 40.0);
     let [along, both] = [false, true].map(|lateral| locked(&hot(lateral, melting), 0.0).0);
+    figure(
+        "sideways.melting",
+        &[both.contact_force_x / along.contact_force_x - 1.0, both.temperature_rail_max - along.temperature_rail_max],
+    );
     println!(
         "{} N at {} K, {} N at {} K",
         along.contact_force_x, along.temperature_rail_max, both.contact_force_x, both.temperature_rail_max

@@ -1,5 +1,6 @@
 //! Random transients of lines that slip along and across, and the symmetries of their forces.
 
+mod common;
 mod half_spaces;
 #[path = "common/random.rs"]
 mod random;
@@ -132,6 +133,14 @@ impl Count {
     /// Friction gives nothing back; of its power thousandths, those of pressure on the inclined surface, have any sign.
     fn check(&self, what: &str, most: f64) {
         let mean = self.newton as f64 / self.steps as f64;
+        if what == "held" {
+            common::figure("sideways.newton", &[mean, self.most as f64]);
+        }
+        if what.contains("nodes") {
+            common::round_off("sideways.random.nodes", &[self.least_power.min(0.0), self.beyond], 1e-10);
+        } else {
+            common::round_off("sideways.random", &[self.beyond], 1e-12);
+        }
         println!("{what}: {self:?}, {mean:.2} a step");
         assert!(self.failures == 0 && self.beyond < 1e-9 && self.least_power > -2e-3);
         assert!(self.most as f64 + OTHER_COST < most * (mean + OTHER_COST));
@@ -233,6 +242,8 @@ fn mirror_images_have_mirrored_forces() {
         forces(&spaces, &state)
     };
     let [right, left] = [run(1.0), run(-1.0)];
+    common::round_off("sideways.mirror", &[right[0] - left[0]], 1e-12);
+    common::round_off("sideways.mirror", &[right[1] + left[1]], 1e-12);
     println!("{right:?} {left:?}");
     assert!((right[0] - left[0]).abs() < 1e-9 && (right[1] + left[1]).abs() < 1e-9);
     assert!((right[2] + left[2]).abs() < 1e-9 && right[1].abs() > 0.1 && right[2].abs() > 1e-5);

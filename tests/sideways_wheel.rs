@@ -47,6 +47,7 @@ fn without_lateral_motion_and_spin_the_patch_is_the_longitudinal_one() {
         let limit = 0.3 * 1e5;
         let missed = (both.contact_force_x - along.contact_force_x) / limit;
         let aside = [both.contact_force_z / limit, both.contact_moment_y / (limit * along.contact_half_width)];
+        figure(&format!("sideways.none.{:?}", one.config().solver.contact), &[missed]);
         println!("creepage {creepage}: force {missed:+.1e}, lateral force and moment {aside:?}");
         assert!(missed.abs() < 2e-3 && aside.iter().all(|share| share.abs() < 1e-6));
     }
@@ -134,6 +135,8 @@ fn a_wheel_that_locks_with_an_angle_of_attack_slides_where_it_goes() {
     let (first, last) = (&seen[0], &seen[300]);
     let limit = 0.3 * last.contact_force_y;
     let direction = last.contact_force_z.atan2(last.contact_force_x) + std::f64::consts::PI;
+    figure_within(1e-3, "sideways.angle.of.attack", &[last.contact_slip_direction]);
+    figure("sideways.angle.of.force", &[direction - last.contact_slip_direction]);
     println!(
         "rolling: F_z {:.3} of the limit; locked: F_x {:.4}, F_z {:.5}, direction of force {direction:.5}, of slip {:.5} rad",
         first.contact_force_z / limit,
@@ -204,6 +207,7 @@ fn balance(contact: ContactMethod) {
         (inputs.lateral, inputs.translation, inputs.drive.moment) = (Lateral::Force, Translation::Velocity, -6e3);
         let at = |t: f64| [6e3 * (1.0 - (150.0 * t).cos()), 0.1 * (1.0 - (100.0 * t).cos())];
         let missed = observed(model, inputs, (5e-5, 1200), at);
+        figure(&format!("sideways.balance.{}", name.replace(' ', ".")), &missed);
         println!("{name}: energy {:+.1e}, momentum {:+.1e}", missed[0], missed[1]);
         assert!(missed.iter().all(|missed| missed.abs() < CLOSED));
     }
@@ -278,6 +282,7 @@ fn a_skew_slide_flashes_as_a_straight_one_of_the_same_speed() {
         (seen[40].temperature_wheel_max - 293.0, seen[40].friction_power)
     };
     let [(straight, power), (skew, other)] = [0.0, 1.0].map(rise);
+    figure_within(0.005, "sideways.flash", &[skew * power / (straight * other)]);
     println!("straight {straight:.2} K under {power:.0} W, skew {skew:.2} K under {other:.0} W");
     assert!((other / power - 1.0).abs() < 2e-2 && (skew * power / (straight * other) - 1.0).abs() < 1e-2);
 }

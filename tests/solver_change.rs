@@ -48,6 +48,7 @@ fn changes_by_the_error_of_the_grid(elements: usize) -> f64 {
     let left = apart[back - 3..back].iter().fold(0.0_f64, |most, apart| most.max(apart.abs()));
     let steps = (back..auto.len()).map(|k| (apart[k] - apart[k - 1]).abs());
     let largest = steps.fold(0.0_f64, f64::max);
+    figure(&format!("solver.apart.{elements}"), &[error, largest]);
     println!(
         "{elements} elements: {error:.1e} apart, {left:.1e} on the grid, {end:.1e} later; {largest:.1e} in a step"
     );

@@ -45,6 +45,8 @@ fn hertz_errors(contact: ContactMethod, n: usize) -> (f64, f64) {
 #[test]
 fn hertz_half_width_within_two_per_mille_on_every_mesh_and_pressure_of_second_order() {
     let [coarse, middle, fine] = [5, 10, 20].map(|n| hertz_errors(ContactMethod::Grid, n));
+    figure("hertz.grid.10", &[middle.0, middle.1]);
+    figure("hertz.grid.5", &[coarse.0, coarse.1]);
     println!("half-width error {:.2e} {:.2e} {:.2e}", coarse.0, middle.0, fine.0);
     println!("peak pressure error {:.2e} {:.2e} {:.2e}", coarse.1, middle.1, fine.1);
     assert!(fine.0 <= 1e-3 && fine.1 <= 1e-3, "half-width {:.2e}, pressure {:.2e}", fine.0, fine.1);
@@ -59,6 +61,7 @@ fn hertz_half_width_within_two_per_mille_on_every_mesh_and_pressure_of_second_or
 fn hertz_half_width_and_pressure_of_the_series_within_one_per_mille_on_every_mesh() {
     for n in [5, 10, 20] {
         let (half_width, pressure) = hertz_errors(ContactMethod::Auto, n);
+        figure(&format!("hertz.{n}"), &[half_width, pressure]);
         println!("{n} elements: half-width error {half_width:.2e}, peak pressure error {pressure:.2e}");
         assert!(half_width <= 1e-3 && pressure <= 1e-3);
     }
@@ -71,6 +74,7 @@ fn thesis_paper_d_patch_and_approach_match_the_reference() {
     inputs.drive.friction = 0.0;
     let simulation = Simulation::new(model, &inputs).unwrap();
     let outputs = simulation.outputs();
+    figure_within(1e-3, "hub.approach [µm]", &[1e6 * outputs.contact_approach]);
     println!("{:e} {:e} {:e}", outputs.contact_half_width, outputs.contact_pressure_max, outputs.contact_approach);
     assert!((outputs.contact_half_width / 7.611e-4 - 1.0).abs() < 2e-3, "{:e}", outputs.contact_half_width);
     assert!((outputs.contact_pressure_max / 83.65e6 - 1.0).abs() < 1e-3, "{:e}", outputs.contact_pressure_max);
@@ -102,6 +106,7 @@ fn steady_force_creepage_curve_matches_the_reference() {
                 "{name} xi = {xi:9.2e}: {utilisation:.6}, reference {reference:.6}, {:+.6}",
                 utilisation - reference
             );
+            figure("steady.force", &[utilisation - reference]);
             assert!((utilisation - reference).abs() <= 2e-3, "{name} at xi = {xi}: {utilisation} against {reference}");
         }
     }
@@ -119,6 +124,7 @@ fn centrifugal_load_shifts_the_force_as_the_reference() {
         };
         let (a, b) = (run(&with), run(&without));
         let (force, height) = (a.0 - b.0, b.1 - a.1);
+        figure_within(0.02, &format!("centrifugal.{speed}"), &[force]);
         println!("{speed} km/h: shift {force:.5} ({shift}), hub lift {height:.4e} ({lift:.4e})");
         assert!((force - shift).abs() <= 0.03 * shift + 1e-4, "{speed} km/h: {force} against {shift}");
         assert!((height / lift - 1.0).abs() < 0.01, "{speed} km/h: {height:e} against {lift:e}");
@@ -176,6 +182,8 @@ fn force_is_smooth_while_the_contact_edges_pass_the_nodes() {
         }
         let mean = forces.iter().sum::<f64>() / forces.len() as f64;
         let spread = |v: &[f64]| range(v).1 - range(v).0;
+        figure("carter.shifted", &[mean, spread(&forces)]);
+        figure("carter.half.width", &[spread(&widths)]);
         println!("share {share}: mean {mean:+.5}, p-p {:.5}; half-width p-p {:.5}", spread(&forces), spread(&widths));
         assert!(mean.abs() <= 1e-3, "share {share}: mean {mean}");
         assert!(spread(&forces) <= 2e-3, "share {share}: peak to peak {}", spread(&forces));

@@ -44,6 +44,7 @@ fn force_error_after_a_moment_step_falls_with_the_tolerance() {
         (force, speed, steps)
     };
     let results = [0.0, 0.03, 0.01, 0.003].map(error);
+    common::figure("moment.tolerance", &results.map(|(force, ..)| force));
     assert_eq!(results[0].2, 20, "without control one internal step each");
     assert!(results.windows(2).all(|r| r[1].0 < 0.8 * r[0].0 && r[1].2 > r[0].2));
     assert!(results[3].0 < 0.01 && results[3].1 < 0.1 * results[0].1);
@@ -106,6 +107,8 @@ fn impact_force_of_a_dropped_wheel_needs_control() {
     let (exact, _) = peak(run(0.0, 1e-5, 5e-4, 0.05, drop));
     let (plain, _) = peak(run(0.0, 0.1, 5e-4, 0.05, drop));
     let (controlled, steps) = peak(run(0.005, 0.1, 5e-4, 0.05, drop));
+    common::figure("landing", &[controlled / exact - 1.0]);
+    common::figure_within(0.1, "landing.without.control", &[plain / exact - 1.0]);
     println!("largest force {exact:.0} N, {controlled:.0} N in {steps} steps, without control {plain:.0} N");
     assert!((controlled / exact - 1.0).abs() < 0.03);
     assert!((plain / exact - 1.0).abs() > 3.0 * (controlled / exact - 1.0).abs());
@@ -127,6 +130,7 @@ fn force_after_a_moment_step_is_right_with_default_settings_and_quiet_driving_co
     println!("{steps} internal steps in {}", seen.len());
     for ms in [2, 4, 10] {
         let (force, reference) = (seen[ms - 1].contact_force_x, exact[ms - 1].contact_force_x);
+        common::figure(&format!("moment.step.{ms}"), &[force / reference - 1.0]);
         println!("{ms} ms: {force:.0} N, converged {reference:.0} N");
         assert!((force / reference - 1.0).abs() < 0.02, "{ms} ms");
     }
@@ -236,6 +240,7 @@ fn after_jumps_of_the_load_the_force_of_a_wheel_on_the_rail_errs_by_less_than_th
             let (exact, _) = shaken(name, 0.0, 5e-6, jumps);
             let (forces, told) = shaken(name, 2e-3, 0.1, jumps);
             let (error, load) = (apart(&forces, &exact), exact[0]);
+            common::figure("jump.warned", &[error / told]);
             println!("{name}, {jumps:?}: error {:.4} of the load, told {:.4}", error / load, told / load);
             assert!(exact.iter().all(|force| *force > 0.0), "it left the rail");
             assert!(error < told && told < load, "{name}: {error:e} N, told {told:e} N");
@@ -247,6 +252,7 @@ fn after_jumps_of_the_load_the_force_of_a_wheel_on_the_rail_errs_by_less_than_th
 fn force_error_after_a_jump_of_the_load_falls_with_the_tolerance_where_nothing_is_damped() {
     let (exact, _) = shaken("paper_a", 0.0, 2e-6, &[(5, 2.0)]);
     let errors = [2e-3, 2e-4, 2e-5].map(|tolerance| apart(&shaken("paper_a", tolerance, 0.1, &[(5, 2.0)]).0, &exact));
+    common::figure("load.jump", &errors.map(|error| error / exact[0]));
     println!("errors over the load: {:.4?}", errors.map(|error| error / exact[0]));
     assert!(errors.windows(2).all(|e| e[1] < 0.4 * e[0]));
     assert!(errors[2] < 0.01 * exact[0]);

@@ -140,6 +140,7 @@ fn falling_friction_excites_the_torsion_at_half_its_slope_over_the_mass_and_risi
         assert!(constant < 0.0 && constant > -0.1, "{constant}");
         for &slope in slopes {
             let [rate, frequency, expected] = grown(&model, slope, h);
+            figure("stick.slip.rate", &[rate / expected - 1.0, frequency / exact - 1.0]);
             assert!(rate.signum() == -slope.signum(), "{rate}");
             assert!((rate / expected - 1.0).abs() < 0.05, "{rate} for {expected}");
             assert!((frequency / exact - 1.0).abs() < 0.01, "{frequency} for {exact}");
@@ -173,6 +174,7 @@ fn stick_slip_sets_in_where_the_slope_of_friction_equals_the_modal_damping() {
                 rate
             });
             let found = 0.95 + 0.1 * below / (below - above);
+            figure("stick.slip.onset", &[found - 1.0]);
             println!(
                 "h {h:.0e}, slope {slope} s/m: onset at {found:.4} of the ratio {onset:.3e}: {below:+.4}, {above:+.4} 1/s"
             );
@@ -213,6 +215,7 @@ fn saturated_stick_slip_does_not_depend_on_the_step() {
     }
     let [swing, frequency] =
         [(cycles[0][1] - cycles[0][0]) / (cycles[1][1] - cycles[1][0]), cycles[0][2] / cycles[1][2]];
+    figure("stick.slip.cycle", &[swing - 1.0, frequency - 1.0]);
     println!("swings {swing:.5}, frequencies {frequency:.5}");
     assert!((swing - 1.0).abs() < 0.03 && (frequency - 1.0).abs() < 0.03);
 }

@@ -48,6 +48,8 @@ fn peak_temperature_of_a_slide_does_not_depend_on_the_step() {
         (peak.0 - 293.0, peak.1 - 293.0)
     };
     let (coarse, fine) = (peak(1e-3), peak(1e-5));
+    figure("flash.step", &[coarse.0 / fine.0 - 1.0]);
+    figure("flash.step", &[coarse.1 / fine.1 - 1.0]);
     println!("peak rise {coarse:?} K with 1 ms, {fine:?} K with 10 us");
     assert!((coarse.0 / fine.0 - 1.0).abs() < 0.01 && (coarse.1 / fine.1 - 1.0).abs() < 0.01);
 }
@@ -91,6 +93,8 @@ fn locked_wheel_slides_to_rest_with_finite_temperatures() {
     }
     let o = simulation.outputs();
     println!("at rest after {time:.2} s, hottest {hottest:.0} K, above Ac1 {:.2} s", o.austenitised_time);
+    figure("slide.energy", &[o.energy_residual]);
+    round_off("slide.heat", &[o.heat_residual], 1e-12);
     println!("energy residual {:+.2e}, heat residual {:+.1e}", o.energy_residual, o.heat_residual);
     println!("flash temperature of a rail that takes all heat {all_to_rail:.0} K");
     // Most heat leaves with the rail. The pressure of a hot, expanding patch is no ellipse: within a fifth.

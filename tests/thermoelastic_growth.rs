@@ -120,6 +120,7 @@ fn the_contraction_of_a_locked_patch_converges_in_step_and_mesh() {
     let times = [0.02, 0.05, 0.1, 0.15, 0.2];
     let run = |model: &Arc<Model>, h: f64| growth(model, [0.04, 0.01], &times, h);
     let (step, mesh) = refine("pressure over the cold one less 1", [5e-4, 2.5e-4, 1.25e-4], [8, 16, 32], &run);
+    figure("contraction", &[step[1], mesh[1]]);
     assert!(converged(step, 0.01), "{step:?}");
     assert!(converged(mesh, 0.02), "{mesh:?}");
 }

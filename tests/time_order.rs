@@ -54,6 +54,7 @@ fn braked_motion_converges_with_second_order_in_the_step_with_and_without_heat()
     for heat in [false, true] {
         let (speed, force) = errors(heat);
         let orders = [0, 1, 2].map(|k| (speed[k] / speed[k + 1]).log2());
+        common::figure_within(0.05, if heat { "order.with.heat" } else { "order.cold" }, &orders);
         println!("observed orders {orders:.2?}");
         // With heat the errors of mechanics and exchange cancel in part, at one step more than at another.
         let mean = orders.iter().sum::<f64>() / 3.0;

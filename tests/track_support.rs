@@ -75,6 +75,7 @@ fn stationary_creepage_curves_do_not_know_the_restraint() {
         worst[1] = worst[1].max((a.contact_force_y / b.contact_force_y - 1.0).abs());
         worst[2] = worst[2].max((a.contact_approach / b.contact_approach - 1.0).abs());
     }
+    round_off("track.restraint", &worst[..1], 1e-11);
     println!("largest differences: F_x {:.1e} of its limit, F_y {:.1e}, approach {:.1e}", worst[0], worst[1], worst[2]);
     assert!(worst.iter().all(|difference| *difference < 1e-9), "{worst:?}");
 }
@@ -147,6 +148,7 @@ fn a_wheel_bounces_on_its_track_as_two_masses_on_springs_and_a_damper() {
     };
     let signal: Vec<f64> = (0..400 * 6).map(|_| step()).collect();
     let [frequency, decay] = vibration(&signal, dt);
+    figure_within(1e-3, "track.bounce", &[frequency, decay]);
     println!("{frequency:.3} rad/s, {decay:.3} 1/s; closed form {expected:.3}");
     assert!((frequency / expected.im - 1.0).abs() < 0.01, "{frequency} rad/s");
     assert!((decay / -expected.re - 1.0).abs() < 0.01, "{decay} 1/s");
@@ -263,6 +265,7 @@ fn a_held_stop_comes_to_rest_with_default_settings() {
     let stop = Stop { speed: 2.0, load: 1.0, brake: 0.4, reversed: false };
     let found = [1e-3, 2e-4].map(|step| rocking(&model, stop, step));
     assert!(found.iter().all(|[late, _]| *late < 0.05), "{found:?}");
+    figure("rocking", &[found[0][0], found[1][0], found[0][1] / found[1][1] - 1.0]);
     assert!((found[0][1] / found[1][1] - 1.0).abs() < 0.1, "{found:?}");
 }
 
@@ -312,6 +315,7 @@ fn both_responses_move_alike_on_their_track() {
         let size = full.iter().map(|values| values[k].abs()).fold(0.0, f64::max);
         let differences = reduced.iter().zip(&full).map(|(a, b)| (a[k] - b[k]).abs());
         let worst = differences.fold(0.0, f64::max) / size;
+        figure(if k < 2 { "track.reduced.force" } else { "track.reduced.base" }, &[worst]);
         println!("quantity {k}: {worst:.1e}");
         assert!(worst < 1e-3, "{worst:e}");
     }

@@ -35,6 +35,7 @@ fn creepage_ramps_match_the_reference() {
     for (duration, reference) in cases {
         let curve = creepage_ramp(&model, duration, 400);
         let worst = curve.iter().zip(&reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        figure(&format!("ramps.{}", (1e3 * duration).round()), &[worst]);
         println!("{duration:.0e} s: largest difference {worst:.4}; {curve:.4?}");
         assert!(worst <= 0.01, "ramp of {duration} s: {curve:.4?} against {reference:?}");
     }
@@ -84,6 +85,9 @@ fn controlled_braking_matches_the_reference() {
     config.initial.velocity = 50.0 * KMH;
     config.initial.creepage = Some(0.0);
     let (speed, creepage, utilisation) = controlled_braking(&model(config), 0.01);
+    figure_within(1e-3, "braking.speed [km/h]", &[speed]);
+    figure_within(0.01, "braking.creepage", &[creepage]);
+    figure_within(0.003, "braking.force", &[utilisation]);
     println!("10 ms: end speed {speed:.4} km/h, peak creepage {creepage:.4e}, peak utilisation {utilisation:.4}");
     assert!((speed - 10.191).abs() <= 0.02, "end speed {speed} km/h");
     assert!((creepage / 1.91e-4 - 1.0).abs() <= 0.02, "peak creepage {creepage}");
@@ -109,11 +113,13 @@ fn prescribed_braking_needs_the_reference_moments() {
         let outputs = simulation.outputs();
         peak = peak.max(outputs.contact_creepage);
         if k == 60 {
+            figure_within(1e-3, "braking.moment.1 [kN]", &[-1e-3 * outputs.hub_moment]);
             println!("first plateau: moment {:.1}, force {:.1}", outputs.hub_moment, outputs.hub_force_x);
             assert!((outputs.hub_moment / -35864.0 - 1.0).abs() <= 0.01, "{}", outputs.hub_moment);
             assert!(outputs.hub_force_x.abs() <= 0.01 * 4e4, "{}", outputs.hub_force_x);
         }
         if k == 125 {
+            figure_within(1e-3, "braking.moment.2 [kN]", &[-1e-3 * outputs.hub_moment]);
             println!("second plateau: moment {:.1}", outputs.hub_moment);
             assert!((outputs.hub_moment / -20000.0 - 1.0).abs() <= 0.01, "{}", outputs.hub_moment);
         }
@@ -169,6 +175,7 @@ impl Ramp {
 fn controlled_fast_ramp_matches_the_reference() {
     let ramp = Ramp::run(20, 1e-5, 1e-2);
     let (utilisation, creepage) = (ramp.utilisation, ramp.peak(4e-4));
+    figure_within(0.005, "fast.ramp.creepage", &[creepage]);
     println!("peak utilisation {utilisation:.4}, creepage over 0.4 ms {creepage:.4e}");
     assert!((utilisation - 0.5477).abs() <= 0.002, "{utilisation}");
     assert!((creepage / 2.840e-4 - 1.0).abs() <= 0.01, "{creepage}");
@@ -181,6 +188,7 @@ fn controlled_fast_ramp_matches_the_reference() {
 #[test]
 fn the_peak_of_a_fast_ramp_is_that_of_ever_shorter_steps() {
     let peak = Ramp::run(10, 1e-6, 2.5e-3).peak(1e-6);
+    figure_within(0.005, "fast.ramp.peak", &[peak]);
     println!("peak creepage {peak:.4e}");
     assert!((peak / 3.789e-4 - 1.0).abs() <= 0.02, "{peak}");
 }

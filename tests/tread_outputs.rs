@@ -29,6 +29,8 @@ fn free_rolling_of_a_hot_wheel_has_the_creepage_of_the_cold_one_but_for_the_chil
         let cold = rolls_freely(0.0, conductance);
         for (excess, tolerance) in [100.0, 300.0].into_iter().zip(tolerance) {
             let hot = rolls_freely(excess, conductance);
+            let rail = if conductance > 0.0 { "on.rail" } else { "alone" };
+            figure(&format!("free.{rail}.{excess}"), &[hot.contact_creepage - cold.contact_creepage]);
             println!(
                 "conductance {conductance:.0e} W/(m2 K), {excess} K: growth {:.3e} m, creepage {:+.4e} (cold {:+.4e}), \
                  loss {:.2e} W (cold {:.2e} W), force {:+.3} N",
@@ -95,10 +97,12 @@ fn t_gamma_is_the_friction_energy_per_metre() {
     println!("free rolling at {free:+.3e}");
     for o in [low, high] {
         let expected = (o.contact_force_x * (o.contact_creepage - free)).abs();
+        figure("t.gamma", &[o.t_gamma / expected - 1.0]);
         println!("creepage {:+.1e}: {:.4} N per metre, |F xi| {expected:.4}", o.contact_creepage, o.t_gamma);
         assert!((o.t_gamma / expected - 1.0).abs() < 0.01);
     }
     let locked = stationary(2.0);
+    figure("t.gamma.locked", &[locked.t_gamma / locked.contact_force_x.abs() - 1.0]);
     println!("locked: {} N per metre, force {} N", locked.t_gamma, locked.contact_force_x);
     assert!((locked.t_gamma / locked.contact_force_x.abs() - 1.0).abs() < 2e-3);
     let half = stationary(2.0 / 3.0);

@@ -52,6 +52,8 @@ fn the_volume_taken_off_is_the_integrated_wear_rate() {
         let rate: f64 = outputs.iter().map(|o| o.wear_rate * o.wheel_velocity.abs() * step).sum();
         let last = &outputs[steps - 1];
         let (mass, store) = (last.worn_mass, missing(&simulation));
+        common::round_off("wear.volume", &[store / mass - 1.0], 1e-11);
+        common::round_off("wear.rate", &[rate / mass - 1.0], 1e-8);
         println!(
             "{velocity} m/s, creepage {creepage}: rate {rate:.6e} kg, worn {mass:.6e} kg, missing {store:.6e} kg, depth {:.3e} m",
             last.worn_depth
@@ -131,6 +133,7 @@ fn a_slide_grinds_a_flat_that_does_not_depend_on_the_steps() {
         let (o, store) = (simulation.outputs().clone(), missing(&simulation));
         assert!((store / o.worn_mass - 1.0).abs() < 1e-12);
         let lost = o.hub_work - o.stored_energy - o.damping_energy - o.friction_energy;
+        common::figure("wear.residual", &[o.energy_residual]);
         println!(
             "{elements} elements, {step} s: {:.2} um deep, contact half-width {:.2} mm, peak pressure {:.1} MPa, work {:.4} J of \
              {:.4} J, residual {:.1e}",
@@ -144,6 +147,7 @@ fn a_slide_grinds_a_flat_that_does_not_depend_on_the_steps() {
         assert!(o.energy_residual.abs() < 1e-3);
         [o.worn_depth, o.contact_half_width, o.worn_mass, o.contact_approach]
     });
+    common::figure_within(0.01, "wear.depth [µm]", &found.map(|[depth, ..]| 1e6 * depth));
     for other in &found[1..] {
         for (quantity, (value, reference)) in other.iter().zip(&found[0]).enumerate() {
             // The edges lie between nodes: by less than one spacing on either side.
@@ -183,6 +187,8 @@ fn a_flat_from_a_slide_strikes_and_does_so_from_its_file() {
     let model = loaded(format!("file({:?}, position = {:?})", file.to_str().unwrap(), 1.5 - flat));
     let mut again = Simulation::new(model, &inputs).unwrap();
     let strike_again = strike(&mut again, &mut inputs, 2.0);
+    common::figure("wear.file", &[strike_again / force - 1.0]);
+    common::figure_within(0.01, "wear.strike [kN]", &[1e-3 * force, 1e-3 * strike_again]);
     println!(
         "flat of {:.1} um at {flat:.4} m: {force:.0} N from the run, {strike_again:.0} N from its file",
         1e6 * depth
@@ -244,6 +250,7 @@ fn the_flat_of_a_locked_wheel_is_as_long_as_its_saved_profile_shows() {
         let outputs = simulation.outputs().clone();
         let contact = 2.0 * outputs.contact_half_width;
         let [length, depth] = read_off(&simulation.wheel_profile_file());
+        common::figure_within(0.02, &format!("wear.length.{case} [mm]"), &[1e3 * outputs.flat_length, 1e3 * length]);
         println!(
             "{case}: flat of {:.2} mm, {:.2} um deep; saved profile {:.2} mm, {:.2} um; contact {:.2} mm",
             1e3 * outputs.flat_length,
@@ -253,6 +260,7 @@ fn the_flat_of_a_locked_wheel_is_as_long_as_its_saved_profile_shows() {
             1e3 * contact,
         );
         let spacing = contact / 6.0;
+        common::figure(&format!("wear.flat.{case}"), &[(outputs.flat_length - length) / spacing]);
         assert!((outputs.flat_length - length).abs() < spacing, "{case}");
         assert!((outputs.flat_depth / depth - 1.0).abs() < 0.05, "{case}");
         assert!(outputs.flat_depth >= outputs.worn_depth.max(outputs.flattening), "{case}");
@@ -286,6 +294,7 @@ fn an_imposed_chord_has_the_length_of_the_chord() {
         let outputs = simulation.outputs();
         let chord = (8.0 * radius * outputs.flat_depth).sqrt();
         let expected = length * (1.0 - 1e-6 / outputs.flat_depth).sqrt();
+        common::figure("wear.chord", &[outputs.flat_length / expected - 1.0]);
         println!("flat of {:.4} mm, chord of its depth {:.4} mm", 1e3 * outputs.flat_length, 1e3 * chord);
         assert!((chord / length - 1.0).abs() < 1e-3 && (outputs.flat_length / expected - 1.0).abs() < 1e-3);
         let [saved, _] = read_off(&simulation.wheel_profile_file());

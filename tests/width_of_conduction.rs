@@ -83,6 +83,7 @@ fn mean_temperature_of_a_strip_on_a_half_space_is_right_within_3_percent_up_to_6
             time = after;
             let exact = mean_of_the_strip(width, time, config.diffusivity(), config.heat_capacity());
             let off = deviation(heat.temperatures(&state).wheel_centre, exact);
+            common::figure("strip", &[off]);
             println!("width {:.0} mm, {time} s: {:+.2} %", 1e3 * width, 100.0 * off);
             worst = worst.max(off.abs());
         }

@@ -72,6 +72,7 @@ fn an_indented_line_contact_bears_the_plastic_pressure_and_keeps_its_flattening(
         let full = simulation.outputs().clone();
         let unloaded = press(&mut simulation, &mut inputs, 1e4);
         let again = press(&mut simulation, &mut inputs, 1.3e5);
+        common::figure_within(0.01, &format!("indented.{elements}"), &[rising[2]]);
         println!(
             "{elements} elements: mean over plastic pressure {rising:.4?}, flattening {:.3} and {:.3} um, work {:.4} J, \
              residual {:+.1e}; again {:.3} um, {:.4} J",
@@ -92,6 +93,7 @@ fn an_indented_line_contact_bears_the_plastic_pressure_and_keeps_its_flattening(
             unloaded.plastic_energy
         );
         let closed = full.hub_work - full.stored_energy - full.damping_energy - full.friction_energy;
+        common::figure("indented.work", &[closed / full.plastic_energy - 1.0]);
         assert!((closed / full.plastic_energy - 1.0).abs() < 5e-3, "{closed} {}", full.plastic_energy);
         means.push(full.flattening);
     }
@@ -207,6 +209,7 @@ fn a_flattened_wheel_sinks_with_every_turn_and_rolls_without_loss() {
         near.fold(f64::MIN, f64::max) - far.fold(f64::MIN, f64::max)
     };
     let depths = [1.0, 2.0].map(sunk);
+    common::figure_within(0.01, "flat.sinks [µm]", &depths.map(|depth| 1e6 * depth));
     println!("flattening {:.2} um, the wheel sinks by {:.2?} um", 1e6 * flat, depths.map(|d| 1e6 * d));
     assert!(depths.iter().all(|d| *d > 0.3 * flat && *d < 2.0 * flat), "{depths:?} {flat}");
     assert!((depths[0] / depths[1] - 1.0).abs() < 0.05);

@@ -18,6 +18,8 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import figures
+
 ROOT = Path(__file__).resolve().parent.parent
 KEPT = ROOT / "benches" / "instructions.json"
 COUNTED = "wheelrail::simulation::Simulation::advance*"
@@ -76,6 +78,15 @@ def report(counts, kept):
     return lines, grown
 
 
+def figure(name, instructions):
+    """The line of a count that pages show.
+
+    >>> figure("line, held", 811646)
+    'figure: instructions.line.held [million] = 0.8116 ± 0.2'
+    """
+    return f"figure: instructions.{'.'.join(re.findall('[a-z]+', name))} [million] = {1e-6 * instructions:.4f} ± 0.2"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--binary", type=Path, default=ROOT / "target" / "release" / "wheelrail")
@@ -90,6 +101,7 @@ def main():
         counts = dict(zip(CASES, found, strict=True))
     lines, grown = report(counts, json.loads(KEPT.read_text()) if KEPT.exists() else {})
     print("\n".join(lines))
+    figures.keep("\n".join(figure(*case) for case in counts.items()), "make instructions")
     if arguments.accept:
         KEPT.write_text(json.dumps({name: round(value) for name, value in counts.items()}, indent=1) + "\n")
         print(f"written: {KEPT.relative_to(ROOT)}")

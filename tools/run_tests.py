@@ -4,17 +4,21 @@
     tools/run_tests.py -p wheelrail -p wheelrail-slave     arguments are handed to cargo test
 
 Cargo hands every program to this script (`--keep`), which notes it with its folder and environment; then they run, one on
-each core, and each prints what it has to say when it has ended. Tests of the documentation follow.
+each core, and each prints what it has to say when it has ended. Tests of the documentation follow. What tests print is
+searched for the figures of the pages (figures.py), and shown if they fail.
 """
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
+
+import figures
 
 ROOT = Path(__file__).resolve().parent.parent
 # All but the tests of the documentation, unless some are chosen.
@@ -44,11 +48,17 @@ def run(program):
     """Name, exit code, output and wall time [s] of a program."""
     start = time.monotonic()
     done = subprocess.run(
-        program["command"], cwd=program["folder"], env=program["environment"], text=True, errors="replace",
+        [*program["command"], "--show-output"], cwd=program["folder"], env=program["environment"], text=True, errors="replace",
         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
     )  # fmt: skip
     name = Path(program["command"][0]).name.rsplit("-", 1)[0]
-    return name, done.returncode, done.stdout, time.monotonic() - start
+    # Without what tests said that have passed.
+    said, code = re.sub(r"\nsuccesses:\n.*(?=\n(?:failures|test result):)", "", done.stdout, flags=re.DOTALL), done.returncode
+    try:
+        figures.keep(done.stdout, "unit tests" if name == "wheelrail" else name)
+    except ValueError as error:
+        said, code = f"{said}{error}\n", code or 1
+    return name, code, said, time.monotonic() - start
 
 
 def main(arguments):

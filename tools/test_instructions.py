@@ -1,11 +1,17 @@
 """What is said of counted instructions beside those that are kept."""
 
+import doctest
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import instructions
+
+
+def load_tests(loader, tests, ignore):
+    tests.addTests(doctest.DocTestSuite(instructions))
+    return tests
 
 
 class Report(unittest.TestCase):

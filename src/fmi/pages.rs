@@ -130,7 +130,8 @@ impl Page {
         [link(before, "before:"), link(all.get(place + 1), "next:")].into_iter().flatten().collect()
     }
 
-    /// The Markdown, with links to what is in the documentation, the others as plain text, and wide tables that scroll.
+    /// The Markdown, with links to what is in the documentation, the others as plain text, wide tables that scroll, and without
+    /// the marks by which figures are written (`tools/figures.py`).
     fn events(&self) -> Vec<Event<'static>> {
         let mut events = Vec::new();
         // Links and pictures that are open now, and whether they stay.
@@ -161,6 +162,7 @@ impl Page {
                     events.push(Event::End(TagEnd::Table));
                     events.push(Event::Html("</div>\n".into()));
                 }
+                Event::InlineHtml(mark) if mark.starts_with("<!--") => (),
                 event => events.push(event.into_static()),
             }
         }
@@ -205,6 +207,12 @@ mod tests {
         let html = page("`|λ_t| ≤ μ λ_n`, *x* < 1\n\n```text\n∂_x u < −V²  [m]\n```\n");
         assert!(html.contains("<code>|λ_t| ≤ μ λ_n</code>") && html.contains("<em>x</em> &lt; 1"), "{html}");
         assert!(html.contains(">∂_x u &lt; −V²  [m]\n</code></pre>"), "{html}");
+    }
+
+    #[test]
+    fn marks_of_figures_are_not_in_the_page() {
+        let html = page("| a |\n|---|\n| within 0.1, 0.2 %<!--a.*:-.1%--> |\n\nit is\n3<!--b_c:.0f--> of them\n");
+        assert!(html.contains("<td>within 0.1, 0.2 %</td>") && html.contains("<p>it is\n3 of them</p>"), "{html}");
     }
 
     #[test]

@@ -242,6 +242,7 @@ mod tests {
                     println!("mode {mode}, speed {speed}: ratio {found:.6e} for {ratio:.6e} with {steps} steps");
                     found / ratio - 1.0
                 });
+                println!("figure: damping.modes = {:.3e}", errors[1]);
                 assert!(errors[1].abs() < 1e-2, "{errors:?}");
             }
         }

@@ -66,6 +66,25 @@ pub fn signed_utilisation(simulation: &Simulation, friction: f64) -> f64 {
     outputs.contact_force_x / (friction * outputs.contact_force_y)
 }
 
+/// Prints figures of the pages, of which the smaller ones are the better (`tools/figures.py`). Printed again, the largest count.
+pub fn figure(name: &str, values: &[f64]) {
+    println!("figure: {name} = {}", listed(values));
+}
+
+/// The same of errors that are round-off: all below `least` are equally good.
+pub fn round_off(name: &str, values: &[f64], least: f64) {
+    println!("figure: {name} = {} < {least:e}", listed(values));
+}
+
+/// Prints figures of the pages that are neither better nor worse while they change by less than the share `tolerance`.
+pub fn figure_within(tolerance: f64, name: &str, values: &[f64]) {
+    println!("figure: {name} = {} ± {tolerance}", listed(values));
+}
+
+fn listed(values: &[f64]) -> String {
+    values.iter().map(|value| format!("{value:.5e}")).collect::<Vec<_>>().join(", ")
+}
+
 /// Smallest and largest value.
 pub fn range(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::MAX, f64::MIN), |(low, high), &v| (low.min(v), high.max(v)))

@@ -122,7 +122,7 @@ fn rotating_cosine_converges_to_the_bessel_solution_with_order_two() {
         };
         let [coarse, fine] = [64, 128].map(error);
         let order = (coarse / fine).log2();
-        println!("observed order {order:.3}");
+        println!("figure: heat.order.{} = {order:.3} ± 0.02", 1e4 * omega);
         assert!((order - 2.0).abs() < 0.15, "observed order {order:.3}");
         assert!(fine < 1e-4);
     }

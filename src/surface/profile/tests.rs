@@ -224,7 +224,7 @@ fn seeded_roughness_returns_its_one_third_octaves() {
         let last = shortest + expected.len() as i32 - 1;
         let found = levels(&profile, period, shortest..=last);
         let worst = found.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        println!("{text}: largest deviation {worst:.1e} dB");
+        println!("figure: roughness.octaves [dB] = {worst:.1e}");
         assert!(worst < 0.5, "{text}: {found:?} {expected:?}");
     }
 }
