@@ -64,6 +64,7 @@ CHECKOUT = (
     Recipe("make fmu3", says="Nothing to be done"),
     Recipe("make python-wheel", says=".whl"),
     Recipe("make house", ("make house", "tools/house.py"), "lines"),
+    Recipe("tools/mutations.py --check", says="coefficients stand in the source"),
     Recipe("tools/house.py --all"),
     Recipe("tools/house.py --json", says="{{"),
     Recipe("tools/house.py contact"),
@@ -160,7 +161,8 @@ NOT_RUN = {
     ),
     "this test runs within it, or it compiles everything once more": (
         ".ci/run", "make test", "make test-fmpy", "make test-times", "make quick", "make loop TEST=brake", "make loop TEST=heat_closed_forms",
-        "make instructions", "tools/instructions.py", "tools/instructions.py --accept", "cargo build --no-default-features --lib",
+        "make mutations", "tools/mutations.py", "tools/mutations.py film damping", "tools/mutations.py --factor 0.95",
+        "tools/mutations.py --brief", "make instructions", "tools/instructions.py", "tools/instructions.py --accept", "cargo build --no-default-features --lib",
         "make loop TEST=lib", "make loop TEST=lib ARGS=profile", "make loop TEST=lib ARGS=every_output", "make docs", "make clean", "make fmu PROFILES=no",
         "cargo build --release", "cargo check --release --lib", "cargo loop --test brake -- name", "cargo test",
         "cargo test --release --lib ROOM:: -- --nocapture", "cargo test --release --test NAME -- --nocapture",
