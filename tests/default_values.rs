@@ -1,7 +1,8 @@
 //! Default values of steel, friction, heat, damping and damage, and those of the presets, beside the sources that they
 //! are from. Every value that differs is told by its name; a parameter of these groups without a source is refused.
 //!
-//! What is published as a formula is computed from it. What is called *chosen* has no source but the page that says so.
+//! What is published as a formula is computed from it; standards are quoted from memory. What is called *chosen* has no
+//! source but the page that says so.
 
 mod common;
 
@@ -85,7 +86,7 @@ fn heat() -> Vec<Sourced> {
             EXACT,
             "chosen: ten times that from which contact is perfect, docs/thesis.md, B 15",
         ),
-        ("thermal.reference_pressure", 500e6, EXACT, "chosen: mean pressure of a patch"),
+        ("thermal.reference_pressure", 500e6, EXACT, "chosen: about the mean pressure of a patch"),
         ("thermal.heat_ratio", 1.0, EXACT, "all work of friction is heat"),
         ("thermal.wheel_share", 0.5, EXACT, "equal bodies"),
         ("thermal.max_speed", 60.0, EXACT, "chosen: layers for 216 km/h"),

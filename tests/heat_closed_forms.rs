@@ -40,7 +40,8 @@ fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
 }
 
 /// Without conduction between the bodies each keeps its share of the heat: `2q √(t/(π kρc))` far from the edges of the source,
-/// while both stand (Carslaw & Jaeger, *Conduction of Heat in Solids*, 2.9).
+/// while both stand; down to the depth d there are `q t (1 − 4 i²erfc(d/√(4κt)))` (Carslaw & Jaeger, *Conduction of Heat in
+/// Solids*, 2.9). The layer that swells is a quarter of the half-width deep.
 #[test]
 fn bodies_that_do_not_conduct_to_each_other_warm_by_their_shares_of_the_heat() {
     let (flux, share, ratio, steps, step) = (1e8, 0.3, 0.6, 20, 5e-5);
@@ -58,10 +59,30 @@ fn bodies_that_do_not_conduct_to_each_other_warm_by_their_shares_of_the_heat() {
     }
     let time = f64::from(steps) * step;
     let whole = 2.0 * ratio * flux * (time / (std::f64::consts::PI * 45.0 * 8000.0 * 460.0)).sqrt();
-    let t = heat.temperatures(&state);
-    for (name, found, flow, part) in
+    let (seen, mut means) = (heat.observed(&state), Default::default());
+    let within = |depth: f64| {
+        let x = depth / (4.0 * time * config.diffusivity()).sqrt();
+        let twice =
+            0.25 * ((1.0 + 2.0 * x * x) * libm::erfc(x) - 2.0 * x / std::f64::consts::PI.sqrt() * (-x * x).exp());
+        ratio * flux * time / config.heat_capacity() * (1.0 - 4.0 * twice)
+    };
+    let (layer, core) = (0.25 * config.half_width, 0.16 * config.half_width);
+    heat.mean_over_depth(&state, core, &mut means).unwrap();
+    let t = seen.temperatures;
+    for (body, (name, found, flow, part)) in
         [("wheel", t.wheel_centre, to_wheel, share), ("rail", t.rail_centre, to_rail, 1.0 - share)]
+            .into_iter()
+            .enumerate()
     {
+        let middle = seen.layer[body].len() / 2;
+        let (content, mean) = (seen.layer[body][middle], means[body][middle]);
+        println!(
+            "{name}: layer {content:.4e} for {:.4e} K m, mean {mean:.3} for {:.3} K",
+            part * within(layer),
+            part * within(core) / core
+        );
+        assert!(deviation(content, part * within(layer)).abs() < 5e-3);
+        assert!(deviation(mean, part * within(core) / core).abs() < 5e-3);
         println!("{name}: {found:.4} K for {:.4} K, {flow:.3} W/m", part * whole);
         assert!(deviation(found, part * whole).abs() < 5e-3);
         assert!(deviation(flow, part * ratio * flux * 2.0 * A).abs() < 1e-9);

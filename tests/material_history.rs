@@ -453,7 +453,7 @@ fn quenched_austenite_becomes_martensite_by_the_law_of_koistinen_and_marburger()
     }
 }
 
-/// The mean rate between 800 and 500 °C, as cooling times t8/5 are taken (EN 1011-1): 100 K/s above 650 °C, 40 K/s below.
+/// The mean rate between 800 and 500 °C, as cooling times t8/5 are taken (EN 1011-2): 100 K/s above 650 °C, 40 K/s below.
 #[test]
 fn cooling_rates_are_means_from_800_to_500_degrees() {
     let found = point(&[(0.0, 300.0), (0.5, 1523.15), (6.5, 923.15), (12.75, 673.15)]).cooling_rate;

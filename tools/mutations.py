@@ -8,7 +8,8 @@
     tools/mutations.py --brief            those that unit tests catch, compiled in the release profile beside the product
 
 The copy and what is compiled of it lie in target/mutations: the working tree is never touched. Coefficients of the copy are
-multiplied by what an environment variable says, so that one build serves them all; presets are read anew. Exit code 1 if a test passes with a wrong coefficient, fails with the right ones or does not run.
+multiplied by what an environment variable says, so that one build serves them all; presets are read anew. Exit code 1 if a test passes
+with a wrong coefficient, fails with the right ones or does not run.
 """
 
 import argparse
