@@ -42,6 +42,8 @@
 # make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
 # make random-temperatures 500 random parameter sets: temperatures within their bounds or refused by name
 # make leak-check memory errors and leaks of the FMU's C interface, with valgrind
+# make mutations each coefficient of steel, friction, heat, damping and damage 5 % wrong in a copy of the source: whether the test that is
+#                named for it notices; ARGS="film damping" takes those with these words, ARGS=--brief those of unit tests in one build
 # make house     counts of the source: impl files, fields, duplicate names, comments, long functions, lines
 # make docs      HTML documentation of the library; every warning is an error
 # make bench-page  a wheel that rolls, brakes and locks in the browser: target/bench/index.html; says which compiler is missing
@@ -101,7 +103,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml 
 	docs/flat.png docs/hunting.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test forget-figures test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 compilers fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack hunting published locked-wheels thesis figures bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check house docs bench-page site describe clean
+.PHONY: demo help test forget-figures test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 compilers fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack hunting published locked-wheels thesis figures bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check mutations house docs bench-page site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -286,6 +288,9 @@ leak-check:
 			cat $(TARGET)/leak-check.log; grep -q "$$# passed" $(TARGET)/leak-check.log && [ $$status = 0 ] || exit 1; \
 		done; \
 	else echo "leak-check skipped: valgrind is not installed"; fi
+
+mutations:
+	@$(WRAPPED) $(PYTHON) tools/mutations.py $(ARGS)
 
 house:
 	@$(PYTHON) tools/house.py

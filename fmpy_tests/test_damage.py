@@ -76,6 +76,14 @@ def test_martensite_over_the_depth_ends_at_its_depth_and_is_as_hard_as_its_share
     assert damage.hardness(np.array([1.0]), found.cooling_rate, {"C": 0.8})[0] > found.hardness.max()
 
 
+def test_hardness_has_the_terms_of_maynier_dollet_and_bastien_and_is_the_mean_of_a_mixture():
+    steel = {"C": 0.4, "Si": 1.6, "Mn": 2.0, "Ni": 3.5, "Cr": 2.2}
+    quenched = 127.0 + 949.0 * 0.4 + 27.0 * 1.6 + 11.0 * 2.0 + 8.0 * 3.5 + 16.0 * 2.2 + 21.0 * np.log10(200.0 * 3600.0)
+    found = damage.hardness(np.array([1.0, 0.25, 0.0]), 200.0, steel, 250.0)
+    np.testing.assert_allclose(found, [quenched, 0.25 * quenched + 0.75 * 250.0, 250.0], rtol=1e-12)
+    assert damage.BASE == 260.0 and damage.STEEL == {"C": 0.50, "Mn": 0.75, "Cr": 0.25, "Si": 0.35, "Ni": 0.0}
+
+
 def test_observations_of_others_stand_beside_what_was_found_with_their_sources(slid):
     sources = {source for *_, source in damage.report(slid[1]).comparisons()}
     assert sources == {damage.SILINGE, damage.RAIL, damage.GALTON}

@@ -188,6 +188,10 @@ mod tests {
         assert!(close(STEEL.poissons_ratio, lame / (2.0 * (lame + shear))));
         assert!(close(STEEL.plane_strain_modulus(), 4.0 * shear * (lame + shear) / (lame + 2.0 * shear)));
         assert!(close(STEEL.plane_strain_modulus(), 2.0 * STEEL.contact_modulus()));
+        // Johnson, eqs. 2.25, in terms of the shear modulus.
+        let half_plane = STEEL.half_plane();
+        assert!(close(half_plane.kernel, (1.0 - STEEL.poissons_ratio) / (std::f64::consts::PI * shear)));
+        assert!(close(half_plane.coupling, (1.0 - 2.0 * STEEL.poissons_ratio) / (2.0 * shear)));
         let beta = STEEL.expansion * (3.0 * lame + 2.0 * shear);
         assert!(close(STEEL.gough_joule(300.0), 300.0 * beta / (7850.0 * 460.0)));
         assert!(close(STEEL.layer_expansion(), beta / STEEL.wave_modulus()));

@@ -146,6 +146,19 @@ fn bounce_on_the_contact_decays_with_rayleigh_damping_standing_and_rolling() {
     }
 }
 
+/// Torsion, radial, one and more diameters of the wheel; all modes of the rail; Rayleigh's factors for both.
+#[test]
+fn modes_of_both_bodies_have_the_ratios_that_their_parameters_give() {
+    let mut config = Config::default();
+    let damping = &mut config.damping;
+    (damping.wheel_torsion, damping.wheel_radial) = (0.1, 0.2);
+    (damping.wheel_one_diameter, damping.wheel_more_diameters, damping.rail) = (0.3, 0.4, 0.5);
+    (damping.rayleigh_mass, damping.rayleigh_stiffness) = (6.0, 7e-5);
+    let with = |ratios| BodyDamping { ratios, mass: 6.0, stiffness: 7e-5 };
+    assert_eq!(BodyDamping::wheel(&config), with([0.1, 0.2, 0.3, 0.4]));
+    assert_eq!(BodyDamping::rail(&config), with([0.5; 4]));
+}
+
 /// Each mode gives its share `s_i` of the flexibility under the bounce the loss factor `2 ζ_i ω/ω_i`:
 /// `ζ = Σ s_i ζ_i ω/ω_i`, with `s_i = f_i²/ω_i²/(δP δδ)` from two static states. Contact force and inertia of the
 /// bouncing wheel make the modal force `f_i = φ_iᵀ (δλ − M r_y δP/m)`.

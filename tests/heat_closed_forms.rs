@@ -41,6 +41,82 @@ fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
     }
 }
 
+/// Without conduction between the bodies each keeps its share of the heat: `2q √(t/(π kρc))` far from the edges of the source,
+/// while both stand; down to the depth d there are `q t (1 − 4 i²erfc(d/√(4κt)))` (Carslaw & Jaeger, *Conduction of Heat in
+/// Solids*, 2.9). The layer that swells is a quarter of the half-width deep.
+#[test]
+fn bodies_that_do_not_conduct_to_each_other_warm_by_their_shares_of_the_heat() {
+    let (flux, share, ratio, steps, step) = (1e8, 0.3, 0.6, 20, 5e-5);
+    let config = with(config(1e5, 50.0), |c| {
+        (c.thermal.wheel_share, c.thermal.heat_ratio, c.thermal.conductance) = (share, ratio, 0.0);
+    });
+    let (heat, mut scratch) = (heat(&config), HeatScratch::default());
+    let friction_power = Piecewise { x: vec![-A, A], value: vec![flux; 2] };
+    let exchange = Exchange { patches: vec![Interval { low: -A, high: A }], friction_power, ..Exchange::default() };
+    let mut state = heat.initial(0.0, 0.0);
+    let (mut to_wheel, mut to_rail) = (0.0, 0.0);
+    for _ in 0..steps {
+        let flows = heat.advance(&mut state, step, 0.0, 0.0, &exchange, &mut scratch);
+        (to_wheel, to_rail) = (flows.to_wheel, flows.to_rail);
+    }
+    let time = f64::from(steps) * step;
+    let whole = 2.0 * ratio * flux * (time / (std::f64::consts::PI * 45.0 * 8000.0 * 460.0)).sqrt();
+    let (seen, mut means) = (heat.observed(&state), Default::default());
+    let within = |depth: f64| {
+        let x = depth / (4.0 * time * config.diffusivity()).sqrt();
+        let twice =
+            0.25 * ((1.0 + 2.0 * x * x) * libm::erfc(x) - 2.0 * x / std::f64::consts::PI.sqrt() * (-x * x).exp());
+        ratio * flux * time / config.heat_capacity() * (1.0 - 4.0 * twice)
+    };
+    let (layer, core) = (0.25 * config.half_width, 0.16 * config.half_width);
+    heat.mean_over_depth(&state, core, &mut means).unwrap();
+    let t = seen.temperatures;
+    for (body, (name, found, flow, part)) in
+        [("wheel", t.wheel_centre, to_wheel, share), ("rail", t.rail_centre, to_rail, 1.0 - share)]
+            .into_iter()
+            .enumerate()
+    {
+        let middle = seen.layer[body].len() / 2;
+        let (content, mean) = (seen.layer[body][middle], means[body][middle]);
+        println!(
+            "{name}: layer {content:.4e} for {:.4e} K m, mean {mean:.3} for {:.3} K",
+            part * within(layer),
+            part * within(core) / core
+        );
+        assert!(deviation(content, part * within(layer)).abs() < 5e-3);
+        assert!(deviation(mean, part * within(core) / core).abs() < 5e-3);
+        println!("{name}: {found:.4} K for {:.4} K, {flow:.3} W/m", part * whole);
+        assert!(deviation(found, part * whole).abs() < 5e-3);
+        assert!(deviation(flow, part * ratio * flux * 2.0 * A).abs() < 1e-9);
+    }
+}
+
+/// Two half-spaces with a resistance between them that dominates: the heat that has passed in the time t is
+/// `h ΔT t (e^{z²} erfc z − 1 + 2z/√π)/z²`, `z = 2h √t/√(kρc)` (Carslaw & Jaeger, 2.7, each surface against the mean of both).
+#[test]
+fn standing_bodies_exchange_heat_by_the_conductance_of_their_contact() {
+    let (conductance, time, warm) = (2e5, 2e-5, 100.0);
+    let config = with(config(1e5, 50.0), |c| c.thermal.conductance = conductance);
+    let (heat, mut scratch) = (heat(&config), HeatScratch::default());
+    let exchange = Exchange { patches: vec![Interval { low: -A, high: A }], ..Exchange::default() };
+    let (mut state, mut passed, steps) = (heat.initial(warm, 0.0), 0.0, 40);
+    for _ in 0..steps {
+        let step = time / f64::from(steps);
+        passed += step * heat.advance(&mut state, step, 0.0, 0.0, &exchange, &mut scratch).conduction;
+    }
+    let z = 2.0 * conductance * time.sqrt() / (45.0_f64 * 8000.0 * 460.0).sqrt();
+    // (e^{z²} erfc z − 1 + 2z/√π)/z² = Σ (−z)^n/Γ(2 + n/2).
+    let (mut sum, mut terms, mut power) = (0.0, [1.0, 0.75 * std::f64::consts::PI.sqrt()], 1.0);
+    for n in 0..30 {
+        sum += power / terms[n % 2];
+        terms[n % 2] *= 2.0 + 0.5 * n as f64;
+        power *= -z;
+    }
+    let expected = conductance * warm * time * 2.0 * A * sum;
+    println!("{passed:.5e} J/m for {expected:.5e} J/m, {sum:.4} of a contact whose surfaces stay as they are");
+    assert!(deviation(passed, expected).abs() < 0.01);
+}
+
 #[test]
 fn a_warm_insulated_wheel_without_contact_keeps_its_temperature() {
     let heat = heat(&with(config(1e5, 50.0), |c| c.thermal.hub = Hub::Insulated));

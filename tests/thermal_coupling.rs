@@ -2,9 +2,10 @@
 
 mod common;
 use common::*;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use wheelrail::analytic::flash_temperature;
 use wheelrail::config::{Config, CrossSection, StartTemperature};
-use wheelrail::simulation::{Inputs, Rotation, Simulation};
+use wheelrail::simulation::{Inputs, Rotation, Simulation, Translation};
 
 #[test]
 fn friction_power_is_traction_times_slip_and_all_of_it_becomes_heat() {
@@ -228,6 +229,52 @@ fn brake_blocks_heat_the_tread_and_the_rail_chills_it() {
     assert!(((o.temperature_wheel_nominal - 293.0) / 0.06039787 - 1.0).abs() < 0.01);
     assert!(((o.temperature_rail_nominal - 293.0) / 0.05080656 - 1.0).abs() < 0.01);
     assert!((o.heat_conduction / 60.0 - 1.0).abs() < 1e-6);
+}
+
+/// Two blocks on a standing wheel: the middle of the heat is a quarter of a turn from the contact on either side, and in the middle
+/// of a block the tread is as warm as a half-space under the flux of half of the heat over 45° and 80 mm,
+/// `2q √(t/(π kρc))` (Carslaw & Jaeger, *Conduction of Heat in Solids*, 2.9).
+#[test]
+fn blocks_heat_a_standing_wheel_in_their_middle_as_a_half_space_under_their_flux() {
+    let (power, steps, step) = (2e6, 20, 1e-5);
+    let mut config = preset("railway", 10);
+    config.initial.velocity = 0.0;
+    let radius = config.wheel.radius;
+    let mut inputs = Inputs::rolling(&config);
+    (inputs.rotation, inputs.translation) = (Rotation::Velocity, Translation::Velocity);
+    let mut simulation = Simulation::new(model(config), &inputs).unwrap();
+    inputs.drive.tread_heat = power;
+    for _ in 0..steps {
+        simulation.advance(&inputs, step).unwrap();
+    }
+    let [wheel, _] = simulation.temperature_fields().unwrap().unwrap();
+    // Angle from the contact point, forward positive, and temperature of the tread.
+    let nodes = wheel.mesh.nodes.iter().zip(&wheel.temperature);
+    let mut tread: Vec<_> = nodes
+        .filter(|([x, y], _)| (x.hypot(*y) / radius - 1.0).abs() < 1e-9)
+        .map(|([x, y], t)| (x.atan2(-y), t - 293.0))
+        .collect();
+    tread.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let time = f64::from(steps) * step;
+    let flux = 0.5 * power / (FRAC_PI_4 * radius * 0.08);
+    let expected = 2.0 * flux * (time / (PI * 50.0 * 7850.0 * 470.0)).sqrt();
+    for side in [1.0, -1.0] {
+        let on_side: Vec<_> = tread.iter().filter(|(angle, _)| side * angle > 0.0).collect();
+        let mut sums = [0.0; 2];
+        for pair in on_side.windows(2) {
+            let (length, mean) = (pair[1].0 - pair[0].0, 0.5 * (pair[0].1 + pair[1].1));
+            sums[0] += length * mean;
+            sums[1] +=
+                length * (pair[0].0 * (2.0 * pair[0].1 + pair[1].1) + pair[1].0 * (pair[0].1 + 2.0 * pair[1].1)) / 6.0;
+        }
+        let middle = side * sums[1] / sums[0];
+        let inner: Vec<f64> =
+            on_side.iter().filter(|(angle, _)| (side * angle - FRAC_PI_2).abs() < 0.2).map(|(_, t)| *t).collect();
+        let warm = inner.iter().sum::<f64>() / inner.len() as f64;
+        println!("middle at {middle:.5} rad; {warm:.4} K at {} nodes, {expected:.4} K in closed form", inner.len());
+        assert!((middle / FRAC_PI_2 - 1.0).abs() < 0.01, "{middle}");
+        assert!((warm / expected - 1.0).abs() < 0.02, "{warm} for {expected}");
+    }
 }
 
 #[test]

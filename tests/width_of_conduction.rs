@@ -126,6 +126,35 @@ fn a_warm_wheel_holds_the_heat_of_its_rim_web_and_boss() {
     assert!(unknowns[0] as f64 / (unknowns[1] as f64) < 1.15);
 }
 
+/// A wheel as wide as the contact throughout, whose web or boss is twice as wide, holds that much more; below the cone in which
+/// heat spreads the rail is as wide as its head.
+#[test]
+fn web_boss_and_head_hold_the_heat_of_their_own_widths() {
+    let content = |body: usize, change: &dyn Fn(&mut HeatConfig)| {
+        let config = heat_common::with(config(0.014), |c| {
+            (c.thermal.rim_width, c.thermal.web_width, c.thermal.boss_width) = (0.014, 0.014, 0.014);
+            change(c);
+        });
+        let heat = heat(&config);
+        heat.heat_content(&heat.initial(1.0, 1.0)).unwrap()[body] * config.contact_width / config.heat_capacity()
+    };
+    let ring = |outer: f64, inner: f64| PI * (outer * outer - inner * inner);
+    let even = content(0, &|_| ());
+    let web = content(0, &|c| c.thermal.web_width = 0.028) - even;
+    let boss = content(0, &|c| c.thermal.boss_width = 0.028) - even;
+    let tall = |height: f64| content(1, &|c| c.rail.height = height);
+    let (head, length) = (tall(0.12) - tall(0.1), config(0.014).rail.length);
+    for (name, found, expected) in [
+        ("wheel", even, 0.014 * ring(0.46, 0.046)),
+        ("web", web, 0.014 * ring(0.46 - 0.06, 0.13)),
+        ("boss", boss, 0.014 * ring(0.13, 0.046)),
+        ("head", head, 0.072 * 0.02 * length),
+    ] {
+        println!("{name}: {found:.6e} for {expected:.6e} m3");
+        assert!((found / expected - 1.0).abs() < 1e-6, "{name}: {found:e} for {expected:e} m3");
+    }
+}
+
 /// Area of tread, rim sides and both sides of the web times the coefficient.
 #[test]
 fn a_warm_wheel_loses_heat_to_the_air_from_tread_rim_and_web() {

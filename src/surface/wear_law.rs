@@ -57,18 +57,15 @@ mod tests {
     /// 5 and 40 N/mm² over 100 mm²: 26.5 and 55 µg per metre and mm²; the regimes join within 0.3 %.
     #[test]
     fn wear_has_three_regimes_that_join() {
-        let law = WearLaw {
-            mild: 5.3e-9,
-            severe: 0.055,
-            catastrophic: 61.9e-9,
-            severe_from: 10.4e6,
-            catastrophic_from: 77.2e6,
-        };
+        let law = WearLaw::from(&Config::default());
         let wear_rate = |t_gamma: f64, area: f64| law.rate(t_gamma, area);
         let area = 1e-4;
         assert!((wear_rate(500.0, area) - 2.65e-6).abs() < 1e-15);
         assert!((wear_rate(4000.0, area) - 5.5e-6).abs() < 1e-15);
         assert!((wear_rate(10e3, area) / 5.5e-6 - 1.0 - 61.9 * 22.8 / 55.0).abs() < 1e-9);
+        // Severe below, mild above, if the regimes began elsewhere.
+        let beside = [(1039.9, 5.3e-9 * 1039.9), (1040.1, 5.5e-6)];
+        assert!(beside.iter().all(|(t_gamma, rate)| (wear_rate(*t_gamma, area) / rate - 1.0).abs() < 1e-12));
         assert!((wear_rate(1039.9, area) / wear_rate(1040.1, area) - 1.0).abs() < 3e-3);
         assert!((wear_rate(7719.9, area) / wear_rate(7720.1, area) - 1.0).abs() < 3e-3);
         assert_eq!([wear_rate(0.0, area), wear_rate(100.0, 0.0)], [0.0; 2]);

@@ -37,3 +37,17 @@ impl Warming {
         self.heat_ratio * self.unit(dt) * dissipation / friction.coefficient
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A half-space under the flux q warms by `2q √(t/(π kρc))` (Carslaw & Jaeger, *Conduction of Heat in Solids*, 2.9), and each
+    /// of two takes half of the power.
+    #[test]
+    fn two_half_spaces_warm_by_the_closed_form_of_half_the_flux_in_each() {
+        let (flux, time) = (0.5, 4e-3);
+        let expected = 2.0 * flux * (time / (PI * 50.0 * 7850.0 * 470.0)).sqrt();
+        assert!((Warming::new(&Config::default()).unit(time) / expected - 1.0).abs() < 1e-12);
+    }
+}
