@@ -10,7 +10,6 @@
 //! | [`log`] | status, categories, messages to the master, errors of calls |
 //! | [`value`] | value references and the types of values |
 //! | [`aside`] | long computations on a thread of their own |
-//! | [`clock`] | times as a person writes them |
 //! | [`life`], [`instance`] | the state that all slaves share; the trait of a model and the instance around it |
 //! | [`array_access`] | access through arrays, as FMI 3.0 has it |
 //! | [`course`], [`intermediate`] | courses of inputs within a step; how a master is asked for their values |
@@ -26,7 +25,6 @@
 pub mod array_access;
 pub mod aside;
 pub mod c_abi;
-pub mod clock;
 pub mod course;
 pub mod instance;
 pub mod intermediate;

@@ -1,8 +1,9 @@
 //! Commands of the binary: packing and describing the FMU, and a master of its own around the slave inside it.
 //!
-//! `setting` (variables by name, values as text) → `setup` (preset and settings → slave) → `run` (scenario, steps) →
+//! `setting` (variables by name, values as text) → `setup` (preset and settings → slave) → `run` (scenario, steps; `clock`: times) →
 //! `simulate`, `steady`, `export`; `model` prepares models under a progress bar, `vtu` writes files for ParaView.
 
+mod clock;
 mod describe;
 mod export;
 mod failure;

@@ -1,6 +1,7 @@
 //! A run over time: the slave, its scenario and its communication steps.
 
 use super::Failure;
+use super::clock::time_after;
 use super::scenario::{RATE, Scenario, Values};
 use super::setting::{Setting, find};
 use super::setup::{Setup, failed, wrong};
@@ -9,7 +10,6 @@ use wheelrail::fmi::description::{DEFAULT_STEP_SIZE, DEFAULT_STOP_TIME};
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::variable::{Kind, Value};
 use wheelrail::simulation::LONGEST_STEP;
-use wheelrail_slave::clock;
 
 /// Difference of times, in steps, that is rounding only.
 const ROUNDING: f64 = 1e-6;
@@ -70,7 +70,7 @@ impl Run {
 
     /// Present time [s].
     pub fn time(&self) -> f64 {
-        if self.done == self.steps { self.stop } else { clock::at(self.done, self.step) }
+        if self.done == self.steps { self.stop } else { time_after(self.done, self.step) }
     }
 
     /// One communication step; the last one is shorter if need be, and one in which inputs jump is taken in parts, which

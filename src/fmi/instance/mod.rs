@@ -23,7 +23,7 @@ use owners::Claim;
 use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
-use wheelrail_slave::{CallError, Life, Outcome, Slave, Snapshot, Status, clock};
+use wheelrail_slave::{CallError, Life, Outcome, Slave, Snapshot, Status};
 
 /// A wheel between its instantiation and its end.
 pub type Instance = wheelrail_slave::Instance<WheelSlave>;
@@ -229,7 +229,7 @@ impl WheelSlave {
             Ok(reached) => {
                 self.settings.hold(inputs.rate, inputs.at(reached));
                 (self.failure, self.hopeless) = (None, false);
-                let time = clock::after(start, reached);
+                let time = start + reached;
                 self.warn_of_limits(time, life);
                 if let Some(simulation) = &self.simulation {
                     self.notices.of_reversal(&inputs, simulation.outputs(), &self.config, time, life.log());

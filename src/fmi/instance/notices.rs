@@ -134,16 +134,21 @@ impl Notices {
         let new: Vec<_> = simulation.exceeded_limits().filter(|limit| !self.limits.contains(limit)).collect();
         for limit in new {
             self.limits.push(limit);
-            log.report(Status::Warning, &format!("t = {time:?} s: {}", simulation.describe_limit(limit)));
+            log.report(Status::Warning, &format!("t = {:?} s: {}", written(time), simulation.describe_limit(limit)));
         }
     }
 
     fn once(&mut self, subject: Subject, row: &Variable, time: f64, text: &str, log: &Log) {
         if !self.subjects.contains(&(subject, row.reference)) {
             self.subjects.push((subject, row.reference));
-            log.report(Status::Warning, &format!("t = {time:?} s: {text}"));
+            log.report(Status::Warning, &format!("t = {:?} s: {text}", written(time)));
         }
     }
+}
+
+/// A time \[s] without the rounding of the sum that it is of start and step.
+fn written(time: f64) -> f64 {
+    format!("{time:.14e}").parse().unwrap_or(time)
 }
 
 /// Warning of declared start values, which are those of the default preset, that a master writes back under another

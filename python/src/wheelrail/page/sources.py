@@ -167,14 +167,12 @@ def _of_csv(path, columns, described):
     """The run of a CSV of `wheelrail simulate --out`."""
     time, series, points = columns.pop("time")[1], {}, {"profile": {}, "line": {}}
     for name, column in columns.items():
-        point = POINT.match(name)
         known, meaning = described.get(name, (guessed(name.partition("[")[0]), ""))
-        if point:
-            points[point["of"]].setdefault(point["name"], {})[int(point["point"])] = _in(path, name, column, known)
-        elif known or name in described:
-            series[name] = Series(_in(path, name, column, known), known, meaning)
+        found = Series(_in(path, name, column, known), known, meaning) if known or name in described else _as_written(*column)
+        if point := POINT.match(name):
+            points[point["of"]].setdefault(point["name"], {})[int(point["point"])] = found.values
         else:
-            series[name] = _as_written(*column)
+            series[name] = found
     patch, lines = (
         {name: np.column_stack([found[k] for k in sorted(found)]) for name, found in points[of].items()} for of in points
     )
