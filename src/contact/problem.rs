@@ -235,6 +235,13 @@ impl LineProblem<'_> {
     pub fn radius(&self) -> f64 {
         self.surfaces.radius + self.placement.growth
     }
+
+    /// Rolling radius over that of the cold circle \[1], by which lever arms about the hub are longer on a grown wheel: bodies
+    /// and gap are those of the cold circle, and material passes them with the grown one. Derivation:
+    /// `docs/theory/lever-arms.md`, section 3.
+    pub fn grown(&self) -> f64 {
+        self.radius() / self.surfaces.radius
+    }
 }
 
 /// One line of a contact problem, with the rigid motions of the wheel.

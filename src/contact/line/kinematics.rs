@@ -147,15 +147,14 @@ impl ContactLine<'_> {
     /// Lever arms about the hub centre of the tangential and the normal force at candidate `i` \[m].
     ///
     /// They are those of the *deformed* wheel: by Betti's theorem for a rotated load only these balance the power of
-    /// hub, contact and friction. The gap has the circle of the cold wheel, whose slope goes with the grown radius here, too.
-    /// Derivation: `docs/theory/lever-arms.md`.
+    /// hub, contact and friction. Derivation: `docs/theory/lever-arms.md`.
     pub fn lever_arms(&self, i: usize) -> [f64; 2] {
         let frame = RimFrame { rim_angle: self.surface_angle, ..self.frame };
-        let (radius, u, port) = (self.problem.radius(), &self.traction.surface[0], self.grid.port(i));
+        let (radius, grown) = (self.problem.radius(), self.problem.grown());
+        let (u, port) = (&self.traction.surface[0], self.grid.port(i));
         let lift = self.iterate.lift.get(i).copied().unwrap_or(0.0);
-        let round = self.grid.x[i] * (radius / self.problem.surfaces.radius);
-        let along = round + frame.tangential(u, port) + radius * self.slopes().arm(i);
-        [radius - frame.normal(u, i) - lift, along]
+        let along = grown * (self.grid.x[i] + frame.tangential(u, port)) + radius * self.slopes().arm(i);
+        [radius - grown * frame.normal(u, i) - grown * lift, along]
     }
 
     /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.

@@ -32,7 +32,7 @@ impl Retarded {
                 let Some(layer) = layer else { continue };
                 self.displace(grid, layer, forces, &pulls[body], if body == 0 { 1.0 } else { -1.0 });
                 self.force[body] = match body {
-                    0 => self.sum(grid, forces, &pulls[0], 1.0, 1.0 / problem.radius()),
+                    0 => self.sum(grid, forces, &pulls[0], 1.0, 1.0 / problem.surfaces.radius),
                     _ => self.sum(grid, forces, &pulls[1], -1.0, 0.0),
                 };
             }

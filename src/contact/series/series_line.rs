@@ -273,9 +273,9 @@ impl<'a> SeriesLine<'a> {
 
     /// Forces of the line on the wheel: x, y [N/m], forward moment \[N].
     pub fn resultant(&self) -> PerAxis<f64> {
-        let tangential = self.friction_force();
+        let (tangential, line) = (self.friction_force(), &self.problem.line);
         let middle = self.half_length * self.pressed.powers[1];
-        let rotation = self.lifted() - self.problem.line.radius() * tangential - middle;
+        let rotation = line.grown() * self.lifted() - line.radius() * tangential - line.grown() * middle;
         PerAxis { travel: tangential, height: self.load(), rotation, lateral: self.tractions.lateral.total() }
     }
 
