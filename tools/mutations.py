@@ -98,8 +98,7 @@ def read(table):
     """All mutations of a table."""
     mutations = []
     for group in tomllib.loads(Path(table).read_text())["group"]:
-        for name, text, *test in group["coefficients"]:
-            mutations.append(Mutation(name, group["file"], text, test[0] if test else group["test"]))
+        mutations += [Mutation(name, group["file"], text, group["test"]) for name, text in group["coefficients"]]
     return mutations
 
 

@@ -52,18 +52,21 @@ TABLE = """
 [[group]]
 file = "src/steel.rs"
 test = "steel::it_is_heavy"
-coefficients = [
-    ["density", "density() -> f64 { «7850.0» }"],
-    ["melting", "MELTS: f64 = «1700.0»", "steel::it_melts"],
-]
+coefficients = [["density", "density() -> f64 { «7850.0» }"]]
+[[group]]
+file = "src/steel.rs"
+test = "steel::it_melts"
+coefficients = [["melting", "MELTS: f64 = «1700.0»"]]
 [[group]]
 file = "steel.json"
-coefficients = [["preset", '"friction": «0.3»', "steel::its_preset_is_known"]]
+test = "steel::its_preset_is_known"
+coefficients = [["preset", '"friction": «0.3»']]
 """
 UNTESTED = TABLE + """
 [[group]]
 file = "src/steel.rs"
-coefficients = [["width", "width() -> f64 { «2.0» }", "steel::all_is_well"]]
+test = "steel::all_is_well"
+coefficients = [["width", "width() -> f64 { «2.0» }"]]
 """
 
 
