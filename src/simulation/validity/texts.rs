@@ -125,7 +125,9 @@ fn softening(value: f64, bound: f64) -> String {
 fn melting(simulation: &Simulation, value: f64, bound: f64) -> String {
     let config = simulation.model().config();
     let why = if config.material.latent_heat > 0.0 {
-        config.told("nothing melts below {thermal.reference now}, which is above it, and temperatures are too high from here on; lower it")
+        config.told(
+            "{thermal.reference now} is above it, too, so that nothing melts, and temperatures are too high; lower it",
+        )
     } else {
         "nothing melts without material.latent_heat, and temperatures are too high from here on; set it".into()
     };
