@@ -145,6 +145,9 @@ pub fn melted_share(heating: f64, rest: f64, material: &Material) -> f64 {
     (film_friction * (FILM_GROWS + liquidus - rest) / (FILM_GROWS + film_friction * heating)).max(0.0)
 }
 
+/// Temperature at which iron boils \[K] (CRC Handbook of Chemistry and Physics: 2861 °C).
+pub const BOILS: f64 = 3134.0;
+
 /// Excess over the liquidus at which the film under the contact no longer carries friction \[K].
 pub const FILM_GROWS: f64 = 40.0;
 

@@ -243,8 +243,8 @@ fn a_hot_wheel_grows_with_its_bulk_in_long_steps_and_bears_its_load() {
 }
 
 /// On a wheel that has grown by half a percent, pressure that yielding steel has moved off the middle passes through the
-/// centre, too, and spends nothing on turning it. Measured: 1.0 and .3 % of what friction dissipates are missing; with the arms
-/// of the cold circle 12 % on the line.
+/// centre, too, and spends nothing on turning it. Measured: .19 and .005 % of what friction dissipates are missing; with the
+/// arms of the cold circle 12 % on the line.
 #[test]
 fn pressure_off_the_middle_of_a_hot_yielding_patch_does_not_turn_the_wheel() {
     let (power, step) = (65e3, 5.0);
@@ -267,7 +267,7 @@ fn pressure_off_the_middle_of_a_hot_yielding_patch_does_not_turn_the_wheel() {
         let after = terms(simulation.outputs());
         let [missing, friction] = [0, 1].map(|k| after[k] - before[k]);
         println!("{name}: {missing:.2} J of {friction:.1} J missing; yielded {}", simulation.outputs().yielded);
-        assert!(simulation.outputs().yielded > 0.5 && missing.abs() < 0.02 * friction);
+        assert!(simulation.outputs().yielded > 0.5 && missing.abs() < 0.005 * friction);
     }
 }
 

@@ -185,23 +185,38 @@ fn steel_that_yields_where_it_sticks_bears_the_pressure_of_its_own_shear() {
     }
 }
 
-/// Slow enough to leave plastic work its place beside that of friction.
+/// Share of the plastic work that the audit misses while the load grows in steps of `h` \[s] on a rail that moves at `speed` [m/s].
+fn missing_share(friction: f64, speed: f64, elements: usize, h: f64) -> f64 {
+    let mut run = standing(soft(elements, friction));
+    lead(&mut run, [2e4, speed], [0.02, h], |_| ());
+    lead(&mut run, [1.3e5, speed], [0.1, h], |_| ());
+    let o = run.0.outputs();
+    let share = missing(o) / o.plastic_energy;
+    println!(
+        "friction {friction}, {speed} m/s, {elements} elements, {h} s: plastic {:.4} J, friction {:.3} J, missing {share:+.2e} of plastic",
+        o.plastic_energy, o.friction_energy
+    );
+    assert!(o.plastic_energy > 2.0);
+    share.abs()
+}
+
 #[test]
-fn work_of_sheared_yielding_closes_the_energy_audit() {
-    for (friction, elements, h) in [(0.1, 10, 5e-4), (0.3, 10, 5e-4), (0.3, 20, 5e-4), (0.3, 10, 1e-4)] {
-        let mut run = standing(soft(elements, friction));
-        lead(&mut run, [2e4, 0.02], [0.02, h], |_| ());
-        lead(&mut run, [1.3e5, 0.02], [0.1, h], |_| ());
-        let o = run.0.outputs();
-        common::figure("sheared.missing", &[missing(o) / o.plastic_energy]);
-        println!(
-            "friction {friction}, {elements} elements, {h} s: plastic {:.4} J, friction {:.3} J, missing {:+.2e} J",
-            o.plastic_energy,
-            o.friction_energy,
-            missing(o)
-        );
-        assert!(missing(o).abs() < 5e-3 * o.plastic_energy && o.plastic_energy > 3.0);
-    }
+fn work_of_yielding_under_a_wheel_that_stands_closes_the_energy_audit() {
+    let [long, short] = [5e-4, 1e-4].map(|h| missing_share(0.3, 0.0, 10, h));
+    common::figure("sheared.standing", &[long, short]);
+    assert!(long < 1.5e-4 && short < 0.25 * long);
+}
+
+/// Slow enough to leave plastic work its place beside that of friction. Dents of the rail pass from node to node of the contact, and what
+/// is missed by that becomes half on half the elements, with friction and without.
+#[test]
+fn work_of_sheared_yielding_is_missed_by_its_bound_and_by_half_of_it_on_half_the_elements() {
+    let long = [(0.0, 10), (0.1, 10), (0.3, 10), (0.3, 20)];
+    let most =
+        long.map(|(friction, elements)| missing_share(friction, 0.02, elements, 5e-4)).into_iter().fold(0.0, f64::max);
+    let [coarse, fine] = [10, 20].map(|elements| missing_share(0.3, 0.02, elements, 1e-4));
+    common::figure("sheared.missing", &[most, coarse, fine]);
+    assert!(most < 3.5e-3 && coarse < 2.2e-3 && fine < 0.6 * coarse);
 }
 
 /// Steel below its limit, standing and sliding.

@@ -5,7 +5,7 @@ mod common;
 use common::*;
 use wheelrail::config::{Config, ContactMethod, Tuning};
 use wheelrail::simulation::validity::Limit;
-use wheelrail::simulation::{Inputs, Rotation, Simulation};
+use wheelrail::simulation::{Inputs, Rotation, Simulation, Translation};
 
 fn limits(simulation: &Simulation) -> Vec<Limit> {
     simulation.exceeded_limits().collect()
@@ -69,6 +69,39 @@ fn a_melting_contact_is_told() {
     }));
     assert!(limits(&simulation).contains(&Limit::Melting), "{:?}", limits(&simulation));
     assert!(simulation.describe_limit(Limit::Melting).contains("1723 K"));
+}
+
+/// Without the film that takes friction from molten steel a locked wheel is heated as long as it slides. A wheel that boils at the
+/// start says so at once, and one whose molten steel loses its friction never does.
+#[test]
+fn steel_above_the_boiling_point_of_iron_is_told_with_its_temperature_whatever_leads_there() {
+    let slide = |film_friction: f64| {
+        let mut config = preset("railway_dry", 8);
+        (config.initial.velocity, config.material.film_friction) = (20.0, film_friction);
+        let mut inputs = Inputs::rolling(&config);
+        (inputs.rotation, inputs.translation) = (Rotation::Velocity, Translation::Velocity);
+        let mut simulation = Simulation::new(model(config), &inputs).unwrap();
+        let omega = inputs.drive.omega;
+        let boils = |simulation: &Simulation| limits(simulation).contains(&Limit::Boiling);
+        let ends = (1..=100).find(|k| {
+            inputs.drive.omega = omega * (1.0 - f64::from(*k) / 20.0).max(0.0);
+            simulation.advance(&inputs, 1e-3).unwrap();
+            boils(&simulation)
+        });
+        (ends, simulation)
+    };
+    let (boils, simulation) = slide(1.0);
+    let text = simulation.describe_limit(Limit::Boiling);
+    println!("after {boils:?} ms: {text}");
+    let peak = format!("{:.0} K", simulation.outputs().peak_temperature.max(simulation.outputs().rail_peak));
+    assert!(
+        boils.is_some() && [&peak, "3134 K", "material.film_friction (now 1"].iter().all(|word| text.contains(*word)),
+        "{text}"
+    );
+    let (never, simulation) = slide(0.02);
+    assert!(never.is_none() && simulation.outputs().melted > 0.0);
+    let told = limits(&at_start(small(|config| config.thermal.wheel_excess = 3000.0)));
+    assert!(told.contains(&Limit::Boiling), "{told:?}");
 }
 
 #[test]

@@ -57,6 +57,8 @@ pub struct Traction {
     pub friction: SolvedFriction,
     /// Yielding of the steel.
     pub yielding: Yielding,
+    /// Share of the contact length on which a molten film takes friction away \[1].
+    pub under_film: f64,
     /// Iterations until all decisions between open, stick and slip were made, without those of the search for the
     /// friction coefficient.
     pub iterations: usize,

@@ -58,6 +58,7 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
         friction: state.friction(),
         contact_tread_slip: state.tread_slip()[0],
         yielded: state.mean_over_area(|line| line.contact.traction.yielding.share),
+        molten: state.mean_over_area(|line| line.contact.traction.under_film),
         internal_steps: state.clock.internal_steps,
         limited_steps: state.clock.limited_steps,
         iterations: state.clock.iterations,

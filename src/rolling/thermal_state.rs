@@ -3,7 +3,7 @@
 use crate::contact::Heating;
 use crate::damage::Damage;
 use crate::heat::{HeatFlows, HeatState, Temperatures};
-use crate::piecewise::Piecewise;
+use crate::piecewise::{self, Piecewise};
 use serde::{Deserialize, Serialize};
 
 /// Temperature fields and what the last step found about them, per metre of width.
@@ -63,6 +63,11 @@ impl Weakening {
         const EMPTY: Piecewise = Piecewise::EMPTY;
         Self { strength: EMPTY, film: EMPTY, warmer_wheel: EMPTY }
     };
+
+    /// Share of the friction coefficient that a film leaves at x \[1].
+    pub fn film_at(&self, x: f64) -> f64 {
+        if self.film.is_empty() { 1.0 } else { piecewise::interpolate(&self.film.x, &self.film.value, x) }
+    }
 }
 
 /// Deformation by heat, as far as it acts on the contact.

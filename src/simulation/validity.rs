@@ -5,7 +5,7 @@ mod texts;
 
 use super::Simulation;
 use crate::contact::{FrictionLaw, Ports};
-use crate::material::INDENTATION;
+use crate::material::{BOILS, INDENTATION};
 use crate::mechanics::{grid_spacing, nominal_half_width};
 
 /// Makes the enumeration and the list of its items.
@@ -40,6 +40,8 @@ limits! {
     Softening,
     /// Temperature up to which steel is solid.
     Melting,
+    /// Temperature up to which there is steel at all.
+    Boiling,
     /// Internal step that resolves what falling friction excites.
     StickSlip,
     /// Internal step below which friction that falls with the slip has no definite value.
@@ -146,9 +148,14 @@ impl Simulation {
                 (softest, AtLeast(least))
             }
             Limit::Melting => {
-                let stays_solid = if config.material.latent_heat > 0.0 { 0.0 } else { 1.0 };
+                let melts = config.material.latent_heat > 0.0 && config.thermal.reference < config.material.solidus;
+                let stays_solid = if melts { 0.0 } else { 1.0 };
                 let hottest = outputs.temperature_wheel_max.max(outputs.temperature_rail_max);
                 (stays_solid * hottest, AtMost(config.material.solidus))
+            }
+            Limit::Boiling => {
+                let so_far = [outputs.peak_temperature, outputs.rail_peak, outputs.temperature_wheel_bulk];
+                (so_far.into_iter().fold(0.0, f64::max), AtMost(BOILS))
             }
             Limit::StickSlip => (self.unresolved_phase(), AtMost(RESOLVED_PHASE)),
             Limit::Chatter => (self.state().clock.last_step, AtLeast(self.indefinite_step())),

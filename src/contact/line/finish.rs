@@ -26,6 +26,7 @@ pub fn finish(line: &mut ContactLine) {
     let ContactLine { grid, given, iterate, state, traction, .. } = line;
     let LineIterate { overlap, centred_slip, across, .. } = &**iterate;
     observe::overlap(grid, state, overlap, traction);
+    traction.under_film = observe::under_film(grid, state, &given.strength);
     let limits = &given.strength.limit;
     traction.yielding.springing_work = observe::springing_work(grid, overlap, limits, traction);
     let pressures = limits.iter().enumerate().map(|(i, force)| force / grid.width(i));

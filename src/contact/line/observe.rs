@@ -3,6 +3,7 @@
 use super::grid::ContactGrid;
 use super::state::{GridState, NodeStatus, for_each_patch};
 use super::streamline::edge_offset;
+use super::strength::Strength;
 use crate::contact::traction::Traction;
 use crate::piecewise::{Interval, Piecewise};
 use std::ops::Range;
@@ -81,6 +82,16 @@ pub(in crate::contact) fn overlap(grid: &ContactGrid, state: &GridState, overlap
     for (x, depth) in grid.x[stretch.clone()].iter().zip(&overlap[stretch]) {
         traction.yielding.overlap.push(*x, depth.max(0.0));
     }
+}
+
+/// Share of the width of the closed candidates on which a molten film takes friction away \[1].
+pub(in crate::contact) fn under_film(grid: &ContactGrid, state: &GridState, strength: &Strength) -> f64 {
+    let closed = (0..grid.len()).filter(|&i| state.status[i].is_active());
+    let [molten, all] = closed.fold([0.0; 2], |[molten, all], i| {
+        let width = grid.width(i);
+        [molten + if strength.is_molten(i) { width } else { 0.0 }, all + width]
+    });
+    if all > 0.0 { molten / all } else { 0.0 }
 }
 
 /// Work [J/m] that yielding candidates would give back if none of their depth `overlap` \[m] stayed. Their force rises

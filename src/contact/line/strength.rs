@@ -17,6 +17,9 @@ const NEARLY_PLASTIC: f64 = 0.95;
 /// Difference of two ratios of shear and pressure that is rounding \[1].
 const SAME_RATIO: f64 = 1e-14;
 
+/// Share of friction that a film takes from a place from which on it counts as being there \[1].
+const NOTICED: f64 = 1e-3;
+
 /// Limits of the nodal forces.
 #[derive(Default)]
 pub struct Strength {
@@ -67,6 +70,11 @@ impl Strength {
     /// Force of candidate `i` above the limit of its steel, given its normal force [N/m]; `None` where nothing yields.
     pub fn excess(&self, i: usize, normal: f64) -> Option<f64> {
         self.limit.get(i).map(|limit| normal - limit)
+    }
+
+    /// True if a film takes friction from candidate `i`.
+    pub fn is_molten(&self, i: usize) -> bool {
+        self.film.get(i).is_some_and(|share| *share < 1.0 - NOTICED)
     }
 
     /// Friction force that candidate `i` can bear over its normal force at the friction coefficient of the line \[1].

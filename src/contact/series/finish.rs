@@ -225,6 +225,7 @@ pub(super) fn finish(
     traction.stick_fraction = line.tractions.share();
     traction.yielding.overlap.clear();
     (traction.yielding.plastic_work, traction.yielding.share, traction.iterations) = (0.0, 0.0, 1);
+    traction.under_film = 0.0;
     write_profiles(line, traction);
     write_lateral_profiles(line, traction);
     traction.pressure_max = line.tractions.pressure.peak();

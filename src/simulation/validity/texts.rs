@@ -26,7 +26,8 @@ impl Simulation {
             Limit::Reach => reach(self, value, bound),
             Limit::Yield => yielding(value, bound),
             Limit::Softening => softening(value, bound),
-            Limit::Melting => melting(value, bound),
+            Limit::Melting => melting(self, value, bound),
+            Limit::Boiling => boiling(self, value, bound),
             Limit::StickSlip => stick_slip(self, value, bound),
             Limit::Chatter => chatter(self, value, bound),
             Limit::Waves => waves(self, value, bound),
@@ -121,12 +122,28 @@ fn softening(value: f64, bound: f64) -> String {
     )
 }
 
-fn melting(value: f64, bound: f64) -> String {
+fn melting(simulation: &Simulation, value: f64, bound: f64) -> String {
+    let config = simulation.model().config();
+    let why = if config.material.latent_heat > 0.0 {
+        config.told(
+            "{thermal.reference now} is above it, too, so that nothing melts, and temperatures are too high; lower it",
+        )
+    } else {
+        "nothing melts without material.latent_heat, and temperatures are too high from here on; set it".into()
+    };
     format!(
-        "contact temperature {value:.0} K is above material.solidus = {bound:.0} K: nothing melts without \
-         material.latent_heat, and temperatures are too high from here on; set it, end the slide earlier, or let \
-         the friction fall with friction.softening or friction.falling_ratio"
+        "contact temperature {value:.0} K is above material.solidus = {bound:.0} K: {why}, end the slide earlier, or let the \
+         friction fall with friction.softening or friction.falling_ratio"
     )
+}
+
+fn boiling(simulation: &Simulation, value: f64, bound: f64) -> String {
+    simulation.model().config().told(&format!(
+        "wheel or rail has been at {value:.0} K, above {bound:.0} K, where iron boils: there is no such steel, and temperatures, \
+         friction and what follows from them are meaningless from here on; check {{material.film_friction now}} (1: molten steel \
+         rubs as solid steel does) and {{material.latent_heat now}} (0: nothing melts), rail.friction, drive.tread_heat and \
+         {{thermal.wheel_excess now}}, or end the slide earlier"
+    ))
 }
 
 fn stick_slip(simulation: &Simulation, value: f64, bound: f64) -> String {

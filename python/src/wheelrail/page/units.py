@@ -84,7 +84,7 @@ GUESSES = (
     (r".*velocity$|.*slip(_z)?$", "m/s"), (r".*slip_direction$", "rad"), (r"contact\.spin$", "1/m"), (r"hub\..*_power$", "W"), (r"wheel\.omega$", "rad/s"),
     (r"wheel\.angular_acceleration$", "rad/s2"), (r"wheel\.acceleration$", "m/s2"),
     (r".*(half_width|approach|distance|height|length|depth\w*|flattening\w*|melted|growth)$|profile\.x$", "m"),
-    (r".*(creepage|slide|adhesion|utilisation|stick_fraction|residual|friction|yielded|fi_surf)$", "1"),
+    (r".*(creepage|slide|adhesion|utilisation|stick_fraction|residual|friction|yielded|molten|fi_surf)$", "1"),
 )  # fmt: skip
 
 
