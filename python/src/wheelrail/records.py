@@ -287,25 +287,6 @@ def _first_line(failure):
     return (str(failure).splitlines() or [type(failure).__name__])[0]
 
 
-def of_arrow(given: object) -> pandas.DataFrame:
-    """The DataFrame of a table of polars, pyarrow, DuckDB or whatever else hands over a stream of Arrow (`__arrow_c_stream__`); units in
-    the metadata of its columns are kept in `attrs`."""
-    try:
-        pyarrow = library("pyarrow")
-    except ImportError as failure:
-        raise ImportError(f"inputs of {type(given).__module__}: {failure}; or make a table of pandas of them") from failure
-    library("pandas")
-    try:
-        made = pyarrow.table(given)
-        frame = made.to_pandas()
-    except (pyarrow.ArrowException, TypeError, ValueError) as failure:
-        raise ValueError(f"{short(given)} is no table of inputs: {_first_line(failure)}") from failure
-    texts = {field.name: field.metadata or {} for field in made.schema}
-    units = {name: (about.get(b"units") or about.get(b"unit") or b"").decode() for name, about in texts.items()}
-    frame.attrs = {"units": units} | frame.attrs
-    return frame
-
-
 def library(name: str) -> ModuleType:
     """A library of the extras, or in one line what is missing."""
     try:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from .courses import HEIGHT, RATE, courses_of, parts
 from .fmu import Fmu, Wheel
-from .records import of_arrow
+from .samples import of_arrow
 from .times import at
 from .units import TIMES, agreed, beside, converted, headed
 from .values import check_names, short

@@ -149,3 +149,22 @@ def _seconds(name, index, begin):
             "`pandas.to_datetime` and `to_timedelta` make an index that is understood"
         )
     return times
+
+
+def of_arrow(given):
+    """The DataFrame of a table of polars, pyarrow, DuckDB or whatever else hands over a stream of Arrow (`__arrow_c_stream__`); units in
+    the metadata of its columns are kept in `attrs`."""
+    try:
+        pyarrow = library("pyarrow")
+    except ImportError as failure:
+        raise ImportError(f"inputs of {type(given).__module__}: {failure}; or make a table of pandas of them") from failure
+    library("pandas")
+    try:
+        made = pyarrow.table(given)
+        frame = made.to_pandas()
+    except (pyarrow.ArrowException, TypeError, ValueError) as failure:
+        raise ValueError(f"{short(given)} is no table of inputs: {str(failure).splitlines()[0]}") from failure
+    texts = {field.name: field.metadata or {} for field in made.schema}
+    units = {name: (about.get(b"units") or about.get(b"unit") or b"").decode() for name, about in texts.items()}
+    frame.attrs = {"units": units} | frame.attrs
+    return frame

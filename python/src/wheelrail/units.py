@@ -223,22 +223,16 @@ def beside(given: Any) -> tuple[Any, str | None]:
     columns of pandas with attributes or names that say it."""
     if isinstance(given, (int, float, str, list, tuple, dict)):
         return given, None
-    if hasattr(given, "iloc"):  # of pandas
-        unit = noted(given.attrs, getattr(given, "name", None)) or behind(getattr(given, "name", None))
-        if hasattr(getattr(given, "dtype", None), "units"):  # of pint-pandas
-            return beside_magnitude(given, given.pint.quantity)
-        return given, unit
-    if hasattr(given, "dims") and hasattr(given, "data"):  # of xarray
-        if type(given.data).__module__.partition(".")[0] == "pint":
-            given = given.pint.dequantify() if hasattr(given, "pint") else given.copy(data=given.data.magnitude).assign_attrs(units=f"{given.data.units:~C}")
-        return given, noted(given.attrs)
-    return _quantity(given)
-
-
-def beside_magnitude(column: Any, quantity: Any) -> tuple[Any, str]:
-    """A column of pint-pandas with plain numbers, and its unit."""
-    magnitude, unit = _quantity(quantity)
-    return type(column)(np.asarray(magnitude, float), column.index, name=column.name), unit
+    if not hasattr(given, "attrs"):
+        return _quantity(given)
+    data, name = getattr(given, "data", None), getattr(given, "name", None)
+    if hasattr(getattr(given, "dtype", None), "units"):  # of pint-pandas
+        magnitude, unit = _quantity(given.pint.quantity)
+        return type(given)(np.asarray(magnitude, float), given.index, name=name), unit
+    if type(data).__module__.partition(".")[0] == "pint":  # in an array of xarray, whose times pint-xarray may have as well
+        plain = hasattr(given, "pint")
+        given = given.pint.dequantify() if plain else given.copy(data=data.magnitude).assign_attrs(units=f"{data.units:~C}")
+    return given, agreed(str(name), (noted(given.attrs, name), behind(name)))
 
 
 def _quantity(given):
