@@ -208,6 +208,18 @@ wheels = [Wheel(fmu, START) for _ in range(3)]
 for wheel in wheels:
     threading.Thread(target=steps, args=(wheel, []), daemon=True).start()
 """,
+    "a bar on a terminal leaves neither a thread nor a lock that settles how processes begin": """
+import fcntl, multiprocessing, struct, termios
+terminal, end = os.openpty()
+fcntl.ioctl(end, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 100, 0, 0))
+console, sys.stderr = sys.stderr, open(end, "w")
+wheelrail.simulate(START, stop=5e-3, fmu=PACKED)
+sys.stderr, shown = console, sys.stderr
+shown.flush()
+assert b"100 %" in os.read(terminal, 100000)
+assert multiprocessing.get_start_method(allow_none=True) is None
+assert [thread.name for thread in threading.enumerate()] == ["MainThread"]
+""",
     "no console": """
 from wheelrail.__main__ import main
 report, sys.stdout, sys.stderr = sys.stderr, None, None

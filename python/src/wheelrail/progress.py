@@ -12,11 +12,7 @@ FORM = "{desc}: {percentage:3.0f}% |{bar}| [{elapsed}<{remaining}{postfix}]"
 class Bar(tqdm):
     """A bar of tqdm without what else it leaves in the process: a thread, and a lock that settles how other processes begin."""
 
-    monitor_interval, _own = 0, RLock()
-
-    @classmethod
-    def get_lock(cls):
-        return getattr(tqdm, "_lock", cls._own)
+    monitor_interval, _lock = 0, RLock()
 
 
 def is_terminal(file):
