@@ -174,14 +174,14 @@ impl Records {
         most
     }
 
-    /// What counts after a rest: martensite alone, and no temperatures.
+    /// What counts after a rest: highest temperatures so far, and martensite.
     pub(super) fn at_rest(&self) -> Self {
         let kept = |history: &PointHistory| PointHistory { martensite: history.martensite, ..PointHistory::default() };
         let histories = self.histories.iter().map(|histories| match histories.iter().any(|h| h.martensite > 0.0) {
             true => histories.iter().map(kept).collect(),
             false => Vec::new(),
         });
-        Self { peaks: vec![0.0; self.peaks.len()], histories: histories.collect() }
+        Self { peaks: self.peaks.clone(), histories: histories.collect() }
     }
 
     /// Agreement with the dimensions of a mesh.
