@@ -14,11 +14,10 @@ A test prints a line `figure: NAME = VALUES`, with up to a unit in brackets behi
     figure: hub.approach [µm] = 3.848 ± 0.01  neither better nor worse within 1 % of what is kept, or printed before
     figure: ramps = 2.3e-3, 2.7e-3, 3.3e-3    three figures, ramps.1 to ramps.3
 
-The programs that run tests keep these lines below target/figures. Studies of minutes print theirs if WHEELRAIL_FIGURES is
-set, as --keep does. A page marks the numbers by a comment behind them, which
-names their figures and the form of each as Python's f-strings do: `within 2.3e-3, 2.7e-3, 3.3e-3<!--ramps:.1e-->`. The form
-`.1%` multiplies by 100 and leaves the sign % to the page, `-.1%` and `+.1%` show which way a deviation goes; `*` stands for any
-part of a name.
+The programs that run tests keep these lines below target/figures; studies of minutes print theirs if WHEELRAIL_FIGURES is
+set, as --keep does. A page marks the numbers by a comment behind them, which names their figures and the form of each as
+Python's f-strings do: `within 2.3e-3, 2.7e-3, 3.3e-3<!--ramps:.1e-->`. The form `.1%` multiplies by 100 and leaves the sign
+% to the page, `-.1%` and `+.1%` show which way a deviation goes, and `*` stands for any part of a name.
 """
 
 import argparse
