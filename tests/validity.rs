@@ -71,10 +71,10 @@ fn a_melting_contact_is_told() {
     assert!(simulation.describe_limit(Limit::Melting).contains("1723 K"));
 }
 
-/// Without the film that takes friction from molten steel a locked wheel is heated as long as it slides. A wheel that boils at the
-/// start says so at once, and one whose molten steel loses its friction never does.
+/// Without the film that takes friction from molten steel a locked wheel is heated as long as it slides. With it steel never
+/// boils.
 #[test]
-fn steel_above_the_boiling_point_of_iron_is_told_with_its_temperature_whatever_leads_there() {
+fn steel_above_the_boiling_point_of_iron_is_told_with_its_temperature() {
     let slide = |film_friction: f64| {
         let mut config = preset("railway_dry", 8);
         (config.initial.velocity, config.material.film_friction) = (20.0, film_friction);
@@ -100,8 +100,6 @@ fn steel_above_the_boiling_point_of_iron_is_told_with_its_temperature_whatever_l
     );
     let (never, simulation) = slide(0.02);
     assert!(never.is_none() && simulation.outputs().melted > 0.0);
-    let told = limits(&at_start(small(|config| config.thermal.wheel_excess = 3000.0)));
-    assert!(told.contains(&Limit::Boiling), "{told:?}");
 }
 
 #[test]
