@@ -27,7 +27,7 @@ def test_the_default_result_has_the_outputs_and_no_points_of_profiles(result, fm
     assert len(arrays) == (29 if result.modelDescription.fmiVersion == "3.0" else 0)
 
 
-def test_fmpy_draws_the_default_result(result, monkeypatch):
+def test_fmpy_draws_the_first_columns_of_the_default_result(result, monkeypatch):
     names, shown = result.dtype.names[1 : MOST + 1], []
     figure = create_plotly_figure(result.copy(), names=names)
     assert [trace.name for trace in figure.data] == list(names)
