@@ -83,5 +83,5 @@ def start(fmu):
 
 @pytest.fixture(scope="session")
 def outputs(fmu):
-    """Names of all real outputs."""
-    return [v.name for v in fmu.description.modelVariables if v.causality == "output" and v.type == "Real"]
+    """Names of all real outputs, and of the points of profiles."""
+    return [v.name for v in fmu.description.modelVariables if v.causality in ("output", "local") and v.type == "Real"]

@@ -137,7 +137,8 @@ def test_initial_outputs_change_only_with_declared_knowns(start, unknowns, contr
     assert {"contact.force_x", "contact.force_y", "wheel.velocity", "hub.moment", "temperature.wheel_bulk"} <= moved
 
 
-def test_a_tool_that_skips_pairs_not_declared_gets_every_derivative(start, unknowns, outputs):
+def test_a_tool_that_skips_pairs_not_declared_gets_every_derivative(start, unknowns, fmu):
+    outputs = [name for name in unknowns[0] if fmu.variables[name].type == "Real"]
     wheel = start(START, SWITCHED | {name: pair[0] for name, pair in VALUES.items()})
     wheel.step(1e-3)
     found = 0

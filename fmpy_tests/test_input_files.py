@@ -181,3 +181,38 @@ def test_what_is_no_table_is_refused_with_its_line(name, tmp_path):
             [number_in(path, line, name, cell) for name, cell in zip(names, cells)]
     print(refused.value)
     assert words in str(refused.value)
+
+
+ENCODINGS = {
+    "utf-16": ["UTF-16", "PowerShell", "Unicode Text", "save it as UTF-8"],
+    "utf-16-le": ["zero bytes", "UTF-16", "save it as UTF-8"],
+    "utf-16-be": ["zero bytes", "UTF-16", "save it as UTF-8"],
+    "latin-1": ["line 3", "0xfc", "Latin-1", "save it as UTF-8"],
+}
+
+
+@pytest.mark.parametrize("encoding", ENCODINGS)
+def test_text_in_another_encoding_is_refused_with_what_wrote_it_and_how_to_save_it(tmp_path, encoding):
+    (tmp_path / "a.csv").write_bytes("position,height\n0,1\n# M\u00fcller\n".encode(encoding))
+    with pytest.raises(BadFile) as refused:
+        read_table(tmp_path / "a.csv")
+    print(refused.value)
+    assert all(word in str(refused.value) for word in ENCODINGS[encoding])
+
+
+COMMAS = {
+    "8,000": "write 8000 if the comma separates thousands, 8.000 if it is a decimal comma",
+    "-1,250": "write -1250 if the comma separates thousands, -1.250 if it is a decimal comma",
+    "8,000.5": "write 8000.5: thousands are not separated",
+    "1,250,000": "write 1250000: thousands are not separated",
+    "0,375": "write a decimal point in the place of the comma",
+    "0,3": "write a decimal point in the place of the comma",
+    "8,00": "write a decimal point in the place of the comma",
+}
+
+
+@pytest.mark.parametrize("cell", COMMAS)
+def test_the_advice_on_a_comma_does_not_make_eight_of_eight_thousand(cell):
+    with pytest.raises(BadFile) as refused:
+        number_in("a.csv", 3, "load", cell)
+    assert str(refused.value) == f"a.csv:3: load is {cell!r}, not a number; {COMMAS[cell]}"

@@ -34,9 +34,19 @@ def zipped(tmp_path, name="other.txt", text="x"):
     return Fmu(tmp_path / "b.fmu")
 
 
+def damaged(tmp_path):
+    """The bytes of an archive whose compressed content is changed."""
+    with zipfile.ZipFile(tmp_path / "c.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("modelDescription.xml", "<fmiModelDescription/>" * 100)
+    content = bytearray((tmp_path / "c.zip").read_bytes())
+    content[55:65] = bytes(10)
+    return bytes(content)
+
+
 OPENING = {
     "no such file": (lambda t: Fmu(MISSING), FileNotFoundError, "no_such.fmu does not exist: build it"),
-    "a directory": (lambda t: Fmu(t), FileNotFoundError, "does not exist"),
+    "a directory": (lambda t: Fmu(t), FileNotFoundError, "is a folder and no FMU: name the file, such as "),
+    "a damaged archive": (lambda t: opened(t, damaged(t)), Refused, "is no FMU"),
     "a number": (lambda t: Fmu(3), ValueError, "expected the path of an FMU"),
     "a text": (lambda t: opened(t, b"a,b\n1,2\n"), Refused, "a.fmu is no FMU: File is not a zip file"),
     "an empty file": (lambda t: opened(t, b""), Refused, "is no FMU"),

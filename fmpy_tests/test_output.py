@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import threading
 from pathlib import Path
 
@@ -197,3 +198,16 @@ def test_a_path_has_one_owner_at_a_time(tmp_path):
     assert (tmp_path / "a.csv").read_text() == "first\n" and len(refused) == 3 and output._owned == set()
     write(tmp_path / "a.csv", "second\n")
     assert (tmp_path / "a.csv").read_text() == "second\n" and names(tmp_path) == ["a.csv", "link.csv"]
+
+
+def test_an_fmu_that_does_not_fit_on_the_disk_is_still_called_an_fmu(disk, packed, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(disk))
+    with pytest.raises(wheelrail.Refused) as refused:
+        wheelrail.Fmu(packed)
+    text = str(refused.value)
+    print(text)
+    assert f"{packed} cannot be unpacked into {disk}: No space left on device" in text and "TMPDIR" in text and "no FMU" not in text
+    assert names(disk) == []
+    monkeypatch.setattr(tempfile, "tempdir", str(disk / "none"))
+    with pytest.raises(wheelrail.Refused, match="cannot be unpacked into a temporary folder: No such file or directory"):
+        wheelrail.Fmu(packed)

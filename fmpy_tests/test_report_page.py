@@ -324,7 +324,8 @@ WRONG = {
     "word.csv": ("time,wheel.velocity\n0,1\n1,fast\n", "word.csv:3: 'fast' in column 2 is no number"),
     "ragged.csv": ("time,wheel.velocity\n0,1\n1\n", "ragged.csv:3: 1 entries, the first line has 2"),
     "back.csv": ("time,wheel.velocity\n0,1\n2,1\n1,1\n", "time must grow from row to row: 2 s is followed by 1 s"),
-    "noise.csv": (bytes(range(256)), "neither NetCDF nor a CSV"),
+    "noise.csv": (bytes(range(256)), "expected a record in NetCDF or a CSV"),
+    "powershell.csv": ("time,wheel.velocity\n0,1\n1,2\n".encode("utf-16"), "PowerShell"),
     "broken.nc": (b"\x89HDF\r\n\x1a\nbroken", "NetCDF"),
 }
 

@@ -169,7 +169,8 @@ def test_any_key_of_any_file_is_swept_and_own_classes_reach_workers_that_have_no
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C of a terminal is a signal to a group of processes")
-def test_ctrl_c_is_one_line_and_the_same_command_goes_on(tmp_path):
+@pytest.mark.parametrize("told, code, word", [("SIGINT", 130, "stopped"), ("SIGTERM", 143, "stopped by SIGTERM")])
+def test_ctrl_c_is_one_line_and_the_same_command_goes_on(tmp_path, told, code, word):
     for path in TRAIN.glob("*.*"):
         shutil.copy(path, tmp_path)
     text = (tmp_path / "low_adhesion.json").read_text().replace('"step": 0.005', '"step": 0.01')
@@ -183,11 +184,14 @@ def test_ctrl_c_is_one_line_and_the_same_command_goes_on(tmp_path):
         while not lines[-1].startswith("stops:"):
             assert lines[-1], lines
             lines.append(running.stderr.readline())
-        os.killpg(running.pid, signal.SIGINT)  # as a terminal does: to the workers, too
+        if told == "SIGINT":
+            os.killpg(running.pid, signal.SIGINT)  # as a terminal does: to the workers, too
+        else:
+            running.send_signal(getattr(signal, told))
         out, rest = running.communicate(timeout=120)
-    assert running.returncode == 130 and "Traceback" not in rest and out.startswith("a coach brakes"), rest
+    assert running.returncode == code and "Traceback" not in rest and out.startswith("a coach brakes"), rest
     last = rest.strip().splitlines()[-1]
-    count = int(re.fullmatch(r"error: stopped after (\d+) of 80 stops; results are in low_adhesion, and the same .*", last).group(1))
+    count = int(re.fullmatch(rf"error: {word} after (\d+) of 80 stops; results are in low_adhesion, and the same .*", last).group(1))
     loaded = scenario.load(tmp_path / "low_adhesion.json")
     missing = sweep.Files(loaded, True, tmp_path / "low_adhesion" / "sweep.csv").missing(loaded)
     # One may be written and not yet counted.

@@ -135,10 +135,10 @@ def check_windows(binary):
 
 
 def outputs(description):
-    """Version of FMI, identity of the FMU, names of its real outputs and, for the host, their value references and sizes."""
+    """Version of FMI, identity of the FMU, names of its real outputs with the points of profiles, their value references and sizes."""
     root = ElementTree.parse(description).getroot()
     if root.get("fmiVersion") == "2.0":
-        variables = [v for v in root.iter("ScalarVariable") if v.get("causality") == "output" and v.find("Real") is not None]
+        variables = [v for v in root.iter("ScalarVariable") if v.get("causality") in ("output", "local") and v.find("Real") is not None]
         return "2.0", root.get("guid"), [v.get("name") for v in variables], [v.get("valueReference") for v in variables]
     names, references = [], []
     for row in root.find("ModelVariables").iterfind("Float64[@causality='output']"):

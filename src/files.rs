@@ -27,9 +27,37 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     Ok(content)
 }
 
-/// Content of such a file as text.
+/// Content of such a file as text in UTF-8. What another encoding seems to be, and how to save it otherwise, is said.
 pub fn read_text(path: &Path) -> io::Result<String> {
-    String::from_utf8(read(path)?).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error.utf8_error()))
+    let content = read(path)?;
+    let refused = |why: String| io::Error::new(io::ErrorKind::InvalidData, why);
+    match String::from_utf8(content) {
+        Ok(text) if !text.contains('\0') => Ok(text),
+        Ok(text) => Err(refused(encoding_of(text.as_bytes(), 0))),
+        Err(error) => Err(refused(encoding_of(error.as_bytes(), error.utf8_error().valid_up_to()))),
+    }
+}
+
+/// Guess at what a content is that is no text in UTF-8 from a byte on, and what to do.
+fn encoding_of(content: &[u8], valid: usize) -> String {
+    const SAVE: &str =
+        "save it as UTF-8 (\"CSV UTF-8\" in Excel, Out-File -Encoding utf8 in PowerShell, \"encoding\" in editors)";
+    match content {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => {
+            format!("it is text in UTF-16, as > in Windows PowerShell and \"Unicode Text\" in Excel write it; {SAVE}")
+        }
+        [b'P', b'K', 3, 4, ..] => format!("it is an archive, such as a workbook of Excel, and no text; {SAVE}"),
+        _ if content.contains(&0) => {
+            format!("it has zero bytes, as text in UTF-16 does that Windows programs write, or it is no text; {SAVE}")
+        }
+        _ => {
+            let line = 1 + content[..valid].iter().filter(|byte| **byte == b'\n').count();
+            format!(
+                "line {line} is not in UTF-8 (byte {:#04x}), perhaps in Latin-1 or Windows-1252; {SAVE}",
+                content[valid]
+            )
+        }
+    }
 }
 
 /// A file that a user has named and that cannot be read.
@@ -96,12 +124,32 @@ mod tests {
         let refusal = read(&path).unwrap_err().to_string();
         fs::write(&path, "position").unwrap();
         let text = read_text(&path);
-        fs::write(&path, [0xff]).unwrap();
-        let no_text = read_text(&path);
         fs::remove_file(&path).unwrap();
         assert!(refusal.contains("more than the 256 MiB"), "{refusal}");
         assert_eq!(text.unwrap(), "position");
-        assert!(no_text.unwrap_err().to_string().contains("utf-8"));
+    }
+
+    #[test]
+    fn text_in_another_encoding_is_refused_with_what_wrote_it_and_how_to_save_it() {
+        let path = std::env::temp_dir().join(format!("wheelrail encoding {}", std::process::id()));
+        let utf16 = |mark: &[u8], bytes: fn(u16) -> [u8; 2]| {
+            [mark.to_vec(), "time,load\n0,1\n".encode_utf16().flat_map(bytes).collect()].concat()
+        };
+        let cases: [(Vec<u8>, &[&str]); 7] = [
+            (utf16(&[0xff, 0xfe], u16::to_le_bytes), &["UTF-16", "PowerShell", "Excel", "save it as UTF-8"]),
+            (utf16(&[0xfe, 0xff], u16::to_be_bytes), &["UTF-16", "PowerShell", "Excel", "save it as UTF-8"]),
+            (utf16(&[], u16::to_le_bytes), &["zero bytes", "UTF-16", "save it as UTF-8"]),
+            (utf16(&[], u16::to_be_bytes), &["zero bytes", "UTF-16", "save it as UTF-8"]),
+            (b"PK\x03\x04\x14\0\xff".to_vec(), &["archive", "workbook of Excel"]),
+            (b"time,load\n# M\xfcller\n".to_vec(), &["line 2", "0xfc", "Latin-1", "save it as UTF-8"]),
+            (vec![0xff], &["line 1", "0xff"]),
+        ];
+        for (content, words) in cases {
+            fs::write(&path, &content).unwrap();
+            let said = read_text(&path).unwrap_err().to_string();
+            assert!(words.iter().all(|word| said.contains(word)), "{said}");
+        }
+        fs::remove_file(&path).unwrap();
     }
 
     #[test]

@@ -11,7 +11,8 @@ fn main() -> ExitCode {
         // The reader of a pipe has seen enough.
         Err(failure) if failure.is_closed_pipe() => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("error: {failure}");
+            // The terminal may be gone.
+            cli::told(&format!("error: {failure}"));
             ExitCode::from(failure.exit_code())
         }
     }

@@ -313,6 +313,20 @@ fn profiles_beside_the_way_and_gaps_in_them_are_told_with_both_ranges() {
 }
 
 #[test]
+fn a_cross_section_in_the_place_of_a_profile_is_told() {
+    let row = |k: i32| {
+        let z = 1e-3 * f64::from(k);
+        format!("{z:?},{:?}\n", -z * z / 0.16)
+    };
+    let path = directory("section").join("head.csv");
+    fs::write(&path, format!("position,height\n{}", (-36..=36).map(row).collect::<String>())).unwrap();
+    let found = warnings(&[&format!("rail.profile={}", path.display())], &["--stop", "0"]);
+    println!("{found:?}");
+    let words = ["differ by 8.1 mm in height on a length of 72 mm", "cross-section", "contact.rail_lateral_radius"];
+    assert!(words.iter().all(|word| found.iter().any(|text| text.contains(word))), "{found:?}");
+}
+
+#[test]
 fn a_width_that_is_that_of_the_wheel_is_told_and_that_of_a_wheelset_is_not() {
     let found = warnings(&["model.contact_width=0.135"], &["--stop", "0.001"]);
     println!("{found:?}");

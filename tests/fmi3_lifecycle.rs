@@ -187,6 +187,71 @@ fn what_this_fmu_does_not_have_is_refused_politely() {
     assert_eq!(unsafe { fmi3EnterEventMode(ptr::null_mut()) }, Status::Error);
 }
 
+/// Arrays of so many elements do not fit into any memory: their sizes in bytes wrap around, some to nothing.
+const IMPOSSIBLE: [usize; 6] = [usize::MAX, (1 << 63) + 1, 1 << 63, 1 << 62, 1 << 61, 1 << 32];
+
+#[test]
+fn numbers_of_elements_that_no_array_has_are_refused_by_every_function() {
+    let wheel = Wheel::ready();
+    assert_eq!(wheel.step(0.0, 1e-3), Status::Ok);
+    let (w, reference, mut state, mut other) =
+        (wheel.instance, reference("drive.load"), ptr::null_mut(), ptr::null_mut());
+    assert_eq!(wheel.save(&mut state), Status::Ok);
+    let before = wheel.float64("contact.force_x");
+    let (mut real, mut whole, mut long, mut flag, mut text) = (0.0, 0, 0, 0, ptr::null());
+    for n in IMPOSSIBLE {
+        let words = format!("= {n} is outside its range");
+        let refused = |call: &mut dyn FnMut() -> Status| wheel.refused(call(), &["number of elements", &words]);
+        // SAFETY: every array has one element; no number below is that of its elements, which is what is tried.
+        unsafe {
+            refused(&mut || fmi3GetFloat64(w, &reference, n, &mut real, n));
+            refused(&mut || fmi3GetInt32(w, &reference, n, &mut whole, n));
+            refused(&mut || fmi3GetInt64(w, &reference, n, &mut long, n));
+            refused(&mut || fmi3GetBoolean(w, &reference, n, &mut flag, n));
+            refused(&mut || fmi3GetString(w, &reference, n, &mut text, n));
+            for (references, values) in [(n, n), (n, 1), (1, n)] {
+                refused(&mut || fmi3SetFloat64(w, &reference, references, &1e5, values));
+                refused(&mut || fmi3SetInt32(w, &reference, references, &1, values));
+                refused(&mut || fmi3SetInt64(w, &reference, references, &1, values));
+                refused(&mut || fmi3SetBoolean(w, &reference, references, &1, values));
+                refused(&mut || fmi3SetString(w, &reference, references, &c"a".as_ptr(), values));
+            }
+            for [a, b, c] in [[n, 1, 1], [1, n, 1], [1, 1, n]] {
+                refused(&mut || fmi3GetDirectionalDerivative(w, &reference, a, &reference, b, &1.0, c, &mut real, 1));
+                refused(&mut || fmi3GetAdjointDerivative(w, &reference, a, &reference, b, &1.0, c, &mut real, 1));
+            }
+            refused(&mut || fmi3GetOutputDerivatives(w, &reference, n, &1, &mut real, n));
+            refused(&mut || fmi3SetDebugLogging(w, 0, n, &c"logAll".as_ptr()));
+            refused(&mut || fmi3SerializeFMUState(w, state, &mut flag, n));
+            refused(&mut || fmi3DeserializeFMUState(w, &flag, n, &mut other));
+            // The numbers of values that are written must be those of the variables.
+            wheel.refused(fmi3GetFloat64(w, &reference, 1, &mut real, n), &["nValues = ", &n.to_string()]);
+        }
+    }
+    assert!(other.is_null() && wheel.float64("contact.force_x") == before && wheel.step(1e-3, 1e-3) == Status::Ok);
+}
+
+#[test]
+fn seeds_that_are_no_finite_numbers_are_refused() {
+    let wheel = Wheel::ready();
+    assert_eq!(wheel.step(0.0, 1e-3), Status::Ok);
+    let [force, load] = ["contact.force_x", "drive.load"].map(reference);
+    for seed in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let value = format!("= {seed:?} is outside its range: finite numbers");
+        wheel.refused(wheel.adjoint(&[force, force], &[load], &[1.0, seed]).unwrap_err(), &["seed[2]", &value]);
+        wheel.refused(wheel.adjoint(&[], &[], &[seed]).unwrap_err(), &["seed[1]", &value]);
+        wheel.refused(wheel.directional(&[force], &[load], &[seed], 1).unwrap_err(), &["seed of drive.load", &value]);
+    }
+    // Each weight is a number, their product with a derivative is none.
+    let slope = wheel.adjoint(&[reference("contact.approach")], &[load], &[1.0]).unwrap()[0];
+    assert!(slope != 0.0 && slope.is_finite());
+    let elevation = reference("rail.elevation");
+    wheel.refused(
+        wheel.adjoint(&[reference("contact.force_y")], &[elevation], &[1e308]).unwrap_err(),
+        &["seed is too large"],
+    );
+}
+
 #[test]
 fn adjoint_derivatives_are_the_transpose_of_directional_ones() {
     let wheel = Wheel::ready();

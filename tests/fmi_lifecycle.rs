@@ -86,7 +86,10 @@ fn resources_are_found_under_every_spelling_of_their_location() {
     fs::copy(source, directory.join("my_set.json")).unwrap();
     let plain = directory.to_str().unwrap().to_owned();
     let encoded = plain.replace(' ', "%20");
-    for location in [plain.clone(), format!("file:{encoded}"), format!("file://{encoded}"), format!("file://{plain}")] {
+    let schemes = ["", "file:", "file://", "FILE:", "File://", "file://localhost", "FILE://LOCALHOST"];
+    for location in
+        schemes.into_iter().map(|scheme| format!("{scheme}{}", if scheme.is_empty() { &plain } else { &encoded }))
+    {
         let slave = Slave::try_new(&dll, &Arguments { resources: Some(&location), ..Default::default() }).ok().unwrap();
         assert_eq!(slave.set_string("preset", "my_set"), fmi2OK, "{location} {:?}", slave.messages());
         slave.refused(slave.set_string("preset", "other"), &["preset", "other", "my_set, railway"]);
@@ -231,6 +234,45 @@ fn unknown_references_wrong_types_and_null_arrays_are_refused() {
         assert_eq!(dll.fmi2GetString(c, ptr::null(), 0, ptr::null_mut()), fmi2OK);
         assert_eq!(dll.fmi2GetReal(null.cast(), &reference, 1, &mut 0.0), fmi2Error);
     }
+}
+
+/// Arrays of so many elements do not fit into any memory: their sizes in bytes wrap around, some to nothing.
+const IMPOSSIBLE: [usize; 6] = [usize::MAX, (1 << 63) + 1, 1 << 63, 1 << 62, 1 << 61, 1 << 32];
+
+#[test]
+fn numbers_of_elements_that_no_array_has_are_refused_by_every_function() {
+    let dll = load();
+    let slave = Slave::ready(&dll);
+    assert_eq!(slave.step(0.0, 1e-3), fmi2OK);
+    let (c, reference, mut state, mut other) =
+        (slave.component, variable("drive.load").reference, ptr::null_mut(), ptr::null_mut());
+    assert_eq!(slave.save(&mut state), fmi2OK);
+    let before = slave.real("contact.force_x");
+    let (mut real, mut whole, mut text, mut byte) = (0.0, 0, ptr::null(), 0);
+    for n in IMPOSSIBLE {
+        let words = [format!("= {n} is outside its range"), "number of elements".to_owned()];
+        let refused =
+            |call: &mut dyn FnMut() -> fmi2Status| slave.refused(call(), &words.each_ref().map(String::as_str));
+        // SAFETY: every array has one element; no number below is that of its elements, which is what is tried.
+        unsafe {
+            refused(&mut || dll.fmi2GetReal(c, &reference, n, &mut real));
+            refused(&mut || dll.fmi2GetInteger(c, &reference, n, &mut whole));
+            refused(&mut || dll.fmi2GetBoolean(c, &reference, n, &mut whole));
+            refused(&mut || dll.fmi2GetString(c, &reference, n, &mut text));
+            refused(&mut || dll.fmi2SetReal(c, &reference, n, &1e5));
+            refused(&mut || dll.fmi2SetInteger(c, &reference, n, &1));
+            refused(&mut || dll.fmi2SetBoolean(c, &reference, n, &1));
+            refused(&mut || dll.fmi2SetString(c, &reference, n, &c"a".as_ptr()));
+            refused(&mut || dll.fmi2SetRealInputDerivatives(c, &reference, n, &1, &0.0));
+            refused(&mut || dll.fmi2GetRealOutputDerivatives(c, &reference, n, &1, &mut real));
+            refused(&mut || dll.fmi2GetDirectionalDerivative(c, &reference, n, &reference, 1, &1.0, &mut real));
+            refused(&mut || dll.fmi2GetDirectionalDerivative(c, &reference, 1, &reference, n, &1.0, &mut real));
+            refused(&mut || dll.fmi2SetDebugLogging(c, 0, n, &c"logAll".as_ptr()));
+            refused(&mut || dll.fmi2SerializeFMUstate(c, state, &mut byte, n));
+            refused(&mut || dll.fmi2DeSerializeFMUstate(c, &byte, n, &mut other));
+        }
+    }
+    assert!(other.is_null() && slave.real("contact.force_x") == before && slave.step(1e-3, 1e-3) == fmi2OK);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use wheelrail::fmi::table::table;
 use wheelrail::fmi::units::UNITS;
 use wheelrail::fmi::v2::description::{Extent, model_description};
 use wheelrail::fmi::v2::variables::{find, variables};
-use wheelrail::fmi::variable::{Causality, Kind, Value, Variable};
+use wheelrail::fmi::variable::{Causality, Group, Kind, Value, Variable};
 use wheelrail::simulation::{MOST_LINES, Outputs, PROFILE_POINTS};
 
 fn with_causality(causality: Causality) -> impl Iterator<Item = &'static Variable> {
@@ -67,12 +67,88 @@ fn references_and_names_of_retired_parameters_belong_to_no_variable_and_are_list
     }
 }
 
+/// Names and causalities of the variables of a description, in its order.
+fn listed(description: &str) -> Vec<(String, String)> {
+    let attribute =
+        |element: &str, name: &str| element.split(&format!(" {name}=\"")).nth(1)?.split('"').next().map(str::to_owned);
+    let inside = description.split("<ModelVariables>").nth(1).unwrap().split("</ModelVariables>").next().unwrap();
+    let elements = inside.split('<').filter(|element| element.contains(" valueReference="));
+    elements.map(|element| (attribute(element, "name").unwrap(), attribute(element, "causality").unwrap())).collect()
+}
+
+/// Who opens a description in a window reads from above.
+#[test]
+fn what_every_run_sets_comes_first_then_inputs_outputs_expert_parameters_and_rates() {
+    let rates = with_causality(Causality::Input).filter(|v| v.name.ends_with("_rate")).count();
+    for interface in [Interface::Two(Extent::Full), Interface::Two(Extent::WithoutProfiles), Interface::Three] {
+        let mut all = listed(&interface.description().unwrap());
+        all.retain(|(_, causality)| causality != "independent");
+        let first: Vec<_> = all[..5].iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(first, ["preset", "initial.velocity", "model.nominal_load", "friction.coefficient", "wheel.radius"]);
+        let mut runs: Vec<(&str, usize)> = Vec::new();
+        for (_, causality) in &all {
+            match runs.last_mut() {
+                Some((last, count)) if *last == *causality => *count += 1,
+                _ => runs.push((causality.as_str(), 1)),
+            }
+        }
+        let order: Vec<_> = runs.iter().map(|(causality, _)| *causality).collect();
+        let expected = ["parameter", "input", "output", "parameter", "local", "input"];
+        let has_points = interface == Interface::Two(Extent::Full);
+        assert_eq!(order, expected.into_iter().filter(|c| has_points || *c != "local").collect::<Vec<_>>());
+        assert_eq!((rates, runs.last().unwrap().1), (11, 11));
+        println!("{interface:?}: {runs:?}");
+    }
+    let basic = SECTIONS[0].rows().count();
+    assert!(table()[..basic].iter().all(|row| row.group() == Group::Basic) && table()[basic].group() == Group::Input);
+}
+
+/// Points are read by name and reference, and no output: windows that show all outputs would show a thousand of them.
+#[test]
+fn points_of_profiles_are_local_in_fmi_2_and_arrays_are_outputs_in_fmi_3() {
+    let two = listed(&model_description(Extent::Full).unwrap());
+    for (name, causality) in &two {
+        assert_eq!(causality == "local", name.contains('['), "{name} is {causality}");
+    }
+    let three = listed(&Interface::Three.description().unwrap());
+    assert!(three.iter().all(|(_, causality)| causality != "local"));
+    let count = |all: &[(String, String)], causality: &str| all.iter().filter(|(_, c)| c == causality).count();
+    let arrays = table().iter().filter(|row| row.dimension.is_some()).count();
+    println!(
+        "FMI 2.0: {} outputs, {} local; FMI 3.0: {} outputs",
+        count(&two, "output"),
+        count(&two, "local"),
+        count(&three, "output")
+    );
+    assert_eq!(count(&two, "output") + arrays, count(&three, "output"));
+    let indices = |text: &str, section: &str| -> Vec<usize> {
+        let inside =
+            text.split(&format!("<{section}>")).nth(1).unwrap().split(&format!("</{section}>")).next().unwrap();
+        inside.split("index=\"").skip(1).map(|part| part.split('"').next().unwrap().parse().unwrap()).collect()
+    };
+    let expected: Vec<_> =
+        (1..).zip(&two).filter(|(_, (_, c))| c == "output").map(|(index, _): (usize, _)| index).collect();
+    for section in ["Outputs", "InitialUnknowns"] {
+        assert_eq!(indices(&model_description(Extent::Full).unwrap(), section), expected);
+    }
+}
+
+/// Programs of other people read descriptions by classes that refuse attributes they do not know.
+#[test]
+fn types_of_fmi_3_have_no_descriptions_at_which_old_versions_of_fmpy_fail() {
+    let text = Interface::Three.description().unwrap();
+    let types: Vec<_> = text.split("<EnumerationType").skip(1).map(|part| part.split('>').next().unwrap()).collect();
+    assert_eq!(types.len(), 14);
+    assert!(types.iter().all(|attributes| !attributes.contains("description=")), "{types:?}");
+    assert!(!text.split("<Float64Type").skip(1).any(|part| part.split('>').next().unwrap().contains("description=")));
+}
+
 /// All parameters are listed once, the basic ones first, whatever the order of their references.
 #[test]
 fn reference_pages_show_some_thirty_basic_parameters_before_the_expert_ones() {
     let titles = SECTIONS.each_ref().map(|section| section.title);
-    assert_eq!(titles, ["Inputs", "Outputs", "Basic parameters", "Expert parameters"]);
-    let [.., basic, expert] = SECTIONS.each_ref().map(|section| section.rows().map(|row| row.name).collect::<Vec<_>>());
+    assert_eq!(titles, ["Basic parameters", "Inputs", "Outputs", "Expert parameters"]);
+    let [basic, .., expert] = SECTIONS.each_ref().map(|section| section.rows().map(|row| row.name).collect::<Vec<_>>());
     assert!((25..=41).contains(&basic.len()), "{} basic parameters", basic.len());
     assert_eq!(basic.len() + expert.len(), with_causality(Causality::Parameter).count());
     for name in ["preset", "wheel.radius", "model.nominal_load", "friction.coefficient", "material.density"] {
@@ -109,6 +185,20 @@ fn units_and_display_units_are_defined() {
             let known = |display| unit.displays.iter().any(|known| known.name == display);
             assert!(measure.display.is_none_or(known), "{}: {measure:?}", variable.name);
         }
+    }
+}
+
+/// Masters scale tolerances and pictures by them.
+#[test]
+fn every_real_input_and_output_has_a_nominal_value_in_both_descriptions() {
+    for (interface, element) in [(Interface::Two(Extent::Full), "<ScalarVariable "), (Interface::Three, "<Float64 ")] {
+        let text = interface.description().unwrap();
+        let others = ["causality=\"parameter\"", "causality=\"independent\""];
+        let variables = text.split(element).skip(1).filter(|v| !others.iter().any(|other| v.contains(other)));
+        let reals: Vec<_> = variables.filter(|v| v.split("Variable>").next().unwrap().contains(" unit=")).collect();
+        let missing: Vec<_> = reals.iter().filter(|v| !v.split("/>").next().unwrap().contains(" nominal=")).collect();
+        assert!(reals.len() > 140 && missing.is_empty(), "{missing:?}");
+        println!("{interface:?}: {} real inputs and outputs with nominal values", reals.len());
     }
 }
 
@@ -290,10 +380,15 @@ fn terminals_name_variables_that_exist_and_only_differences_of_temperature_are_r
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/terminalsAndIcons.xml");
     let text = std::fs::read_to_string(path).unwrap();
     let members: Vec<_> = text.split("variableName=\"").skip(1).map(|part| part.split('"').next().unwrap()).collect();
-    assert!(members.len() > 20);
-    for name in members {
-        assert!(variables().iter().any(|variable| variable.name == name), "{name}");
+    for name in &members {
+        assert!(variables().iter().any(|variable| variable.name == *name), "{name}");
     }
+    // What a host connects stands in one terminal: sideways motion and time derivatives of inputs, too.
+    let real = |v: &&Variable| v.causality() == Causality::Input && matches!(v.kind, Kind::Real { .. });
+    let times = |name: &str| members.iter().filter(|member| **member == name).count();
+    assert!(table().iter().filter(real).all(|input| times(input.name) == 1));
+    assert!(members.iter().all(|name| times(name) == 1));
+    println!("{} inputs in {} members of terminals", table().iter().filter(real).count(), members.len());
     let relative: Vec<_> = variables()
         .iter()
         .filter(|v| matches!(v.kind, Kind::Real { measure, .. } if measure.is_relative()))

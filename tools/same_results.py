@@ -116,7 +116,7 @@ def outputs(binary):
     """Names of all outputs that a binary has, points of profiles by the name of their array."""
     described = subprocess.run([binary, "describe"], capture_output=True, text=True, check=True).stdout
     model = ElementTree.fromstring(described)
-    names = (v.get("name") for v in model.iter("ScalarVariable") if v.get("causality") == "output")
+    names = (v.get("name") for v in model.iter("ScalarVariable") if v.get("causality") in ("output", "local"))
     return list(dict.fromkeys(name.split("[")[0] for name in names))
 
 

@@ -78,7 +78,7 @@ class Bench {
 
   // Starts a run in the place of the one before. What a link does not say is held as the page says.
   async start(link, quiet = false) {
-    const scripted = link.includes("&at="),
+    const scripted = /(^|&|%26)at(=|%3d)/i.test(link),
       hold = $("#hold").checked && !scripted;
     this.stop();
     const { name } = await this.core.ask("basis", { link });

@@ -5,6 +5,7 @@ use crate::rail::Condition;
 use crate::script::Change;
 use std::fmt;
 use wheelrail::config::{Config, presets};
+use wheelrail_slave::uri::decode;
 
 /// Shape of the contact patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,12 +88,14 @@ impl Default for Settings {
 
 impl Settings {
     /// Reads a link: pairs `name=value` with `&` between them, changes as `at=1250:torque=6`, the time in milliseconds.
-    /// Settings that are not named have their usual values.
+    /// Settings that are not named have their usual values. Percent codes, which mail programs put into links, are read.
     ///
     /// # Errors
     /// Unknown names, values that do not exist or are out of range, changes that are not in the order of time.
     pub fn from_link(link: &str) -> Result<Self, LinkError> {
         let mut settings = Self::default();
+        let readable = decode(link.as_bytes()).and_then(|bytes| String::from_utf8(bytes).ok());
+        let link = readable.ok_or_else(|| LinkError::Part { part: link.into() })?;
         for part in link.trim().trim_start_matches('#').split('&').filter(|part| !part.is_empty()) {
             let Some((name, value)) = part.split_once('=') else { return Err(LinkError::Part { part: part.into() }) };
             match name {
@@ -192,7 +195,10 @@ mod tests {
             let run = Settings { patch, rail, speed: 61.7, load: 99.0, torque: 0.0, angle, changes };
             let link = run.to_string();
             assert_eq!(Settings::from_link(&link), Ok(run.clone()), "{link}");
-            assert_eq!(Settings::from_link(&format!("#{link}")), Ok(run));
+            assert_eq!(Settings::from_link(&format!("#{link}")), Ok(run.clone()));
+            assert_eq!(Settings::from_link(&link.replace(':', "%3A").replace('&', "%26")), Ok(run.clone()));
+            let all: String = link.bytes().map(|byte| format!("%{byte:02x}")).collect();
+            assert_eq!(Settings::from_link(&all), Ok(run));
         }
         assert_eq!(Settings::from_link(""), Ok(Settings::default()));
     }
@@ -205,6 +211,9 @@ mod tests {
         for number in ["speed=0", "speed=1e9", "load=-1", "torque=NaN", "torque=", "speed=inf"] {
             assert!(said(number).contains(" to "), "{number}: {}", said(number));
         }
+        assert!(
+            said("at=5%3").contains("at=5%3") && said("at=5%zzlock").contains("%zz") && said("%ff").contains("%ff")
+        );
         assert!(said("colour=red").contains("colour=red") && said("lock").contains("\"lock\""));
         assert!(said("at=5:jump").contains("lock, release") && said("at=-5:lock").contains("milliseconds"));
         assert!(said("angle=3").contains("patch=line") && said("patch=ellipse&angle=99").contains("-20 to 20 mrad"));

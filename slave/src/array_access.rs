@@ -112,15 +112,20 @@ impl<S: ArrayAccess> Instance<S> {
         slave.directional(unknowns, knowns, seed, life)
     }
 
-    /// Derivatives of the sum of outputs, each with its weight in `seed`, by every known input: one directional derivative for
-    /// each of these.
+    /// Derivatives of the sum of outputs, each with its finite weight in `seed`, by every known input: one directional derivative
+    /// for each of these.
     pub fn adjoint(&mut self, unknowns: &[Reference], knowns: &[Reference], seed: &[f64]) -> Outcome<Vec<f64>> {
         self.life().allow(Call::GetDirectionalDerivative)?;
+        if let Some((k, weight)) = (1..).zip(seed).find(|(_, weight)| !weight.is_finite()) {
+            return Err(CallError::error(format!("seed[{k}] = {weight:?} is outside its range: finite numbers")));
+        }
         let (slave, life) = self.parts();
         let by = |known: &Reference| {
             let column = slave.directional(unknowns, &[*known], &[1.0], life)?;
             check_length("nSeed", seed.len(), column.len())?;
-            Ok(column.iter().zip(seed).map(|(derivative, weight)| derivative * weight).sum())
+            let sum: f64 = column.iter().zip(seed).map(|(derivative, weight)| derivative * weight).sum();
+            let failed = || CallError::error(format!("adjoint derivative = {sum}: the seed is too large"));
+            sum.is_finite().then_some(sum).ok_or_else(failed)
         };
         knowns.iter().map(by).collect()
     }

@@ -2,14 +2,19 @@
 
 use std::path::PathBuf;
 
+/// The rest of a text that begins with a word in small or capital letters, which mean the same in schemes and hosts.
+fn after<'a>(text: &'a str, word: &str) -> Option<&'a str> {
+    text.get(..word.len()).filter(|start| start.eq_ignore_ascii_case(word)).map(|_| &text[word.len()..])
+}
+
 /// Path of a `file:` URI (RFC 8089: `file:/a`, `file:///a`, `file://localhost/a`, percent-encoded) or of a plain path.
 pub fn path_of(location: &str) -> Result<PathBuf, String> {
     let unusable = |why: &str| format!("resource location \"{location}\" {why}");
-    let Some(rest) = location.strip_prefix("file:") else {
+    let Some(rest) = after(location, "file:") else {
         return if location.contains("://") { Err(unusable("is not a file URI")) } else { Ok(location.into()) };
     };
     let path = match rest.strip_prefix("//") {
-        Some(authority) => authority.strip_prefix("localhost").unwrap_or(authority),
+        Some(authority) => after(authority, "localhost").unwrap_or(authority),
         None => rest,
     };
     if !path.starts_with('/') {
@@ -21,7 +26,8 @@ pub fn path_of(location: &str) -> Result<PathBuf, String> {
     Ok(if drive { path[1..].into() } else { path.into() })
 }
 
-fn decode(text: &[u8]) -> Option<Vec<u8>> {
+/// Bytes of a text with percent codes such as `%3A`; `None` where one is malformed.
+pub fn decode(text: &[u8]) -> Option<Vec<u8>> {
     let mut bytes = text.iter();
     let mut decoded = Vec::with_capacity(text.len());
     while let Some(&byte) = bytes.next() {
@@ -61,15 +67,33 @@ mod tests {
 
     #[test]
     fn all_spellings_of_a_location_name_the_same_path() {
-        for location in ["file:/a b/c", "file:///a%20b/c", "file://localhost/a%20b/c", "/a b/c"] {
-            assert_eq!(path_of(location).unwrap(), PathBuf::from("/a b/c"), "{location}");
+        let same = [
+            "/a b/C",
+            "file:/a b/C",
+            "file:///a%20b/C",
+            "file://localhost/a%20b/C",
+            "FILE:///a%20b/C",
+            "File:/a b/%43",
+        ];
+        for location in same.into_iter().chain(["fILE://LocalHost/a%20b/C"]) {
+            assert_eq!(path_of(location).unwrap(), PathBuf::from("/a b/C"), "{location}");
         }
+        assert_eq!(path_of("FILE:///c%3A/a%20b").unwrap(), PathBuf::from("c:/a b"));
         assert_eq!(path_of("file:///C:/a%20b").unwrap(), PathBuf::from("C:/a b"));
     }
 
     #[test]
     fn other_locations_are_refused_by_name() {
-        for location in ["http://example.org/a", "file:a", "file:///a%2", "file:///a%zz", "file:///%ff"] {
+        for location in [
+            "http://example.org/a",
+            "file:a",
+            "file:///a%2",
+            "file:///a%zz",
+            "file:///%ff",
+            "FILE://host/a",
+            "FILE:a",
+            "filé:///a",
+        ] {
             assert!(path_of(location).unwrap_err().contains(location), "{location}");
         }
     }

@@ -1,11 +1,12 @@
 //! `export`: fields in the whole bodies to files for ParaView.
 
+use super::interrupt::Interrupt;
 use super::run::{Course, Run};
 use super::setting::Setting;
 use super::setup::{Setup, failed};
 use super::steady::{OperatingPoint, parse_creepage};
 use super::vtu::{self, Data, Encoding};
-use super::{Failure, model};
+use super::{Failure, model, told};
 use std::path::PathBuf;
 use wheelrail::fmi::instance::{Instance, simulation};
 use wheelrail::simulation::{BodyField, Fields, Stress, TemperatureField};
@@ -41,11 +42,11 @@ pub struct Export {
 
 impl Export {
     /// Writes the files.
-    pub fn run(self) -> Result<(), Failure> {
+    pub fn run(self, interrupt: &Interrupt) -> Result<(), Failure> {
         if let Some(every) = self.every {
-            return self.series(every);
+            return self.series(every, interrupt);
         }
-        let (mut instance, when) = self.instance()?;
+        let (mut instance, when) = self.instance(interrupt)?;
         self.write(&fields(&mut instance)?, &when)
     }
 
@@ -56,7 +57,7 @@ impl Export {
     }
 
     /// The slave in the state to be exported, and what that is.
-    fn instance(&self) -> Result<(Instance, String), Failure> {
+    fn instance(&self, interrupt: &Interrupt) -> Result<(Instance, String), Failure> {
         let fixed = Self::fixed()?;
         if self.creepage.is_some() || self.velocity.is_some() {
             if self.course.scenario.is_some() || self.course.stop.is_some() {
@@ -74,7 +75,7 @@ impl Export {
         let start = Course { scenario: None, stop: Some(0.0), step: self.course.step };
         let mut run = Run::start(&self.setup, if running { &self.course } else { &start }, &fixed)?;
         let bar = model::bar("simulate", run.steps as u64);
-        while run.advance()? {
+        while interrupt.check().and_then(|()| run.advance())? {
             bar.set_position(run.done as u64);
         }
         bar.finish_and_clear();
@@ -117,7 +118,7 @@ impl Export {
     }
 
     /// Writes a series over a run. The index is complete after every moment, whatever happens then.
-    fn series(&self, every: f64) -> Result<(), Failure> {
+    fn series(&self, every: f64, interrupt: &Interrupt) -> Result<(), Failure> {
         let step = self.course.step;
         if !(every.is_finite() && every >= step) {
             let range = format!("finite, at least --step = {step} s");
@@ -131,7 +132,7 @@ impl Export {
         let mut run = Run::start(&self.setup, &self.course, &Self::fixed()?)?;
         let bar = model::bar("export", run.steps as u64);
         let (index, mut frames) = (self.out.join("fields.pvd"), Vec::new());
-        loop {
+        let ended = loop {
             // A time that is short of a moment by rounding only counts as there.
             if run.time() >= frames.len() as f64 * every - ROUNDING * step || run.done == run.steps {
                 let when = format!("time {} s", run.time());
@@ -141,14 +142,16 @@ impl Export {
                 vtu::write_series(&index, &comment("wheel and rail", "a series over time"), &frames)?;
             }
             bar.set_position(run.done as u64);
-            if !run.advance()? {
-                break;
+            match interrupt.check().and_then(|()| run.advance()) {
+                Ok(true) => {}
+                Ok(false) => break Ok(()),
+                Err(failure) => break Err(failure),
             }
-        }
+        };
         bar.finish_and_clear();
         run.finish()?;
-        eprintln!("time 0 to {} s: {} with {} moments", run.time(), index.display(), frames.len());
-        Ok(())
+        told(&format!("time 0 to {} s: {} with {} moments", run.time(), index.display(), frames.len()));
+        ended
     }
 }
 

@@ -1,6 +1,6 @@
 //! Why a command stopped.
 
-use std::io;
+use std::io::{self, Write};
 
 /// Why a command stopped.
 #[derive(Debug, thiserror::Error)]
@@ -11,6 +11,14 @@ pub enum Failure {
     /// The model or the machine did not do it.
     #[error("{0}")]
     Run(String),
+    /// A signal asked for the end.
+    #[error("stopped by {name}")]
+    Interrupted {
+        /// Its number.
+        signal: i32,
+        /// Its name.
+        name: &'static str,
+    },
     #[error("output: {0}")]
     Output(#[from] io::Error),
     #[error("output: {0}")]
@@ -18,9 +26,13 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Exit code of the process.
+    /// Exit code of the process; of a signal that of shells, 128 more than its number.
     pub fn exit_code(&self) -> u8 {
-        if matches!(self, Failure::Usage(_)) { 2 } else { 1 }
+        match self {
+            Failure::Usage(_) => 2,
+            Failure::Interrupted { signal, .. } => u8::try_from(128 + signal).unwrap_or(1),
+            Failure::Run(_) | Failure::Output(_) | Failure::Csv(_) => 1,
+        }
     }
 
     /// True if nobody reads the output any more.
@@ -35,4 +47,9 @@ impl Failure {
         };
         kind == Some(io::ErrorKind::BrokenPipe)
     }
+}
+
+/// Tells a line on standard error, which may be gone.
+pub fn told(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
 }

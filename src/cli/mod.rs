@@ -7,6 +7,7 @@ mod clock;
 mod describe;
 mod export;
 mod failure;
+mod interrupt;
 mod model;
 mod pack;
 mod run;
@@ -19,13 +20,15 @@ mod table;
 mod track;
 mod vtu;
 
-pub use failure::Failure;
+pub use failure::{Failure, told};
 
 use clap::{Parser, Subcommand};
+use interrupt::Interrupt;
 
 /// Transient wheel-rail rolling contact as a co-simulation unit of FMI 2.0 and 3.0.
 ///
-/// Values are in SI units. Exit codes: 0 done, 1 run failed, 2 wrong arguments.
+/// Values are in SI units. Exit codes: 0 done, 1 run failed, 2 wrong arguments, 130 stopped by Ctrl-C (128 and the number of the
+/// signal). What was computed until then is written.
 #[derive(Parser)]
 #[command(version)]
 pub struct Arguments {
@@ -45,12 +48,13 @@ enum Command {
 impl Arguments {
     /// Carries the command out.
     pub fn run(self) -> Result<(), Failure> {
+        let interrupt = Interrupt::listen()?;
         match self.command {
-            Command::Pack(pack) => pack.run(),
+            Command::Pack(pack) => pack.run(&interrupt),
             Command::Describe(describe) => describe.run(),
-            Command::Simulate(simulate) => simulate.run(),
-            Command::Steady(steady) => steady.run(),
-            Command::Export(export) => export.run(),
+            Command::Simulate(simulate) => simulate.run(&interrupt),
+            Command::Steady(steady) => steady.run(&interrupt),
+            Command::Export(export) => export.run(&interrupt),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! `pack`: the FMU with everything its presets need.
 
 use super::describe::Described;
+use super::interrupt::Interrupt;
 use super::{Failure, model};
 use std::fs;
 use std::path::PathBuf;
@@ -40,11 +41,12 @@ pub struct Pack {
 
 impl Pack {
     /// Computes or finds the basis of every preset and writes the FMU.
-    pub fn run(self) -> Result<(), Failure> {
+    pub fn run(self, interrupt: &Interrupt) -> Result<(), Failure> {
         fs::create_dir_all(&self.cache)?;
         let mut bases = Vec::new();
         for name in presets::available(Some(&self.resources)) {
             bases.extend(self.basis(&name)?);
+            interrupt.check()?;
         }
         if let Some(parent) = self.out.parent() {
             fs::create_dir_all(parent)?;

@@ -6,7 +6,7 @@ use super::track::{Heights, bend};
 use std::path::Path;
 use wheelrail::config::display_number;
 use wheelrail::files;
-use wheelrail::files::table::{Table, TableError, decimal_comma};
+use wheelrail::files::table::{Table, TableError, comma};
 use wheelrail::fmi::variable::{Causality, Kind, Value, Variable};
 use wheelrail::piecewise::{between, straight};
 
@@ -75,7 +75,7 @@ impl Scenario {
         for row in table.rows() {
             let row = row?;
             let refused = |text: &str, why: String| {
-                let advice = decimal_comma(text).map_or_else(String::new, |advice| format!("; {advice}"));
+                let advice = comma(text).map_or_else(String::new, |advice| format!("; {advice}"));
                 TableError::new(row.line, why + &advice)
             };
             let text = row.text(time);

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use wheelrail::config::{nearest, retired};
+use wheelrail::files::table::comma;
 use wheelrail::fmi::units::Measure;
 use wheelrail::fmi::v2::variables::variables;
 use wheelrail::fmi::variable::{Enumeration, Kind, Value, Variable};
@@ -55,7 +56,8 @@ pub fn parse(variable: &Variable, text: &str) -> Result<Value, String> {
     let refused = |expected: String| format!("{} = \"{text}\" is not {expected}", variable.name);
     let value = match variable.kind {
         Kind::Real { measure: Measure { unit, .. }, .. } => {
-            text.parse().map(Value::Real).map_err(|_| refused(format!("a number [{unit}]")))?
+            let advice = || comma(text).map_or_else(String::new, |advice| format!("; {advice}"));
+            text.parse().map(Value::Real).map_err(|_| refused(format!("a number [{unit}]{}", advice())))?
         }
         Kind::Integer { min, max } => {
             text.parse().map(Value::Integer).map_err(|_| refused(format!("a whole number from {min} to {max}")))?

@@ -1,10 +1,11 @@
 //! `simulate`: a run over time to a CSV file.
 
+use super::interrupt::Interrupt;
 use super::run::{Course, Run};
 use super::setting::{Setting, find};
 use super::setup::Setup;
 use super::table::{self, Csv, significant};
-use super::{Failure, model};
+use super::{Failure, model, told};
 use indicatif::ProgressBar;
 use std::io::{self, IsTerminal};
 use std::num::NonZeroUsize;
@@ -50,7 +51,7 @@ pub struct Simulate {
 
 impl Simulate {
     /// Takes all steps; results go to the CSV, a summary to standard error.
-    pub fn run(self) -> Result<(), Failure> {
+    pub fn run(self, interrupt: &Interrupt) -> Result<(), Failure> {
         let columns = columns(&self.outputs)?;
         self.refuse_lost_files()?;
         let saved = self.wheel_profile.iter().map(|file| Setting::new("wheel.profile_save", file));
@@ -66,19 +67,24 @@ impl Simulate {
         let mut summary = Summary::new()?;
         loop {
             summary.see(&mut run)?;
-            if run.done.is_multiple_of(self.every.get()) || run.done == run.steps {
+            let due = run.done.is_multiple_of(self.every.get()) || run.done == run.steps;
+            if due {
                 csv.row(Some(run.time()), &columns, &table::read(&mut run.instance, &columns)?)?;
             }
             bar.set_position(run.done as u64);
             let began = Instant::now();
-            match run.advance() {
+            match interrupt.check().and_then(|()| run.advance()) {
                 Ok(true) => summary.wall += began.elapsed(),
                 Ok(false) => break,
                 Err(failure) => {
                     // What has been computed is kept.
                     bar.abandon();
+                    if !due {
+                        csv.row(Some(run.time()), &columns, &table::read(&mut run.instance, &columns)?)?;
+                    }
                     csv.finish()?;
                     run.finish()?;
+                    self.tell_kept(run.time());
                     return Err(failure);
                 }
             }
@@ -91,6 +97,12 @@ impl Simulate {
 }
 
 impl Simulate {
+    /// Says where what was computed until the end of a run \[s] that came too early lies.
+    fn tell_kept(&self, time: f64) {
+        let kept = [self.out.as_ref().map(|path| path.display().to_string()), self.wheel_profile.clone()];
+        kept.into_iter().flatten().for_each(|file| told(&format!("{file} holds what was computed up to {time} s")));
+    }
+
     /// Refuses two files in one place: results over the scenario, or under the profile of the wheel.
     fn refuse_lost_files(&self) -> Result<(), Failure> {
         let files = [

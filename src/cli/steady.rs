@@ -1,9 +1,10 @@
 //! `steady`: stationary rolling at one or many creepages.
 
+use super::interrupt::Interrupt;
 use super::setting::{Setting, find};
 use super::setup::{Setup, wrong};
 use super::table::{self, Csv};
-use super::{Failure, model};
+use super::{Failure, model, told};
 use std::path::PathBuf;
 use std::str::FromStr;
 use wheelrail::analytic;
@@ -172,8 +173,8 @@ impl OperatingPoint {
 }
 
 impl Steady {
-    /// Writes one row per creepage.
-    pub fn run(self) -> Result<(), Failure> {
+    /// Writes one row per creepage, those that were computed if not all can be.
+    pub fn run(self, interrupt: &Interrupt) -> Result<(), Failure> {
         let columns = OUTPUTS.iter().map(|name| find(name, |_| true)).collect::<Result<Vec<_>, _>>()?;
         let mut point = OperatingPoint::new(&self.setup, self.velocity, &[])?;
         let range = match self.creepage {
@@ -182,20 +183,29 @@ impl Steady {
         };
         let bar = model::bar("steady", range.count as u64);
         let mut rows = Vec::new();
-        for creepage in range.values() {
+        let ended = range.values().try_for_each(|creepage| {
+            interrupt.check()?;
             point.set(creepage)?;
             rows.push(table::read(&mut point.instance, &columns)?);
             bar.inc(1);
-        }
+            Ok(())
+        });
         bar.finish_and_clear();
+        if ended.is_err() && rows.is_empty() {
+            return ended;
+        }
         if self.table {
             print_table(&columns, &rows);
-            return Ok(());
+            return ended;
         }
         let mut csv = Csv::create(self.out.as_deref())?;
         csv.header(columns.iter().map(|v| v.name))?;
         rows.iter().try_for_each(|row| csv.row(None, &columns, row))?;
-        csv.finish()
+        csv.finish()?;
+        if let (Err(_), Some(out)) = (&ended, &self.out) {
+            told(&format!("{} holds the first {} of {} creepages", out.display(), rows.len(), range.count));
+        }
+        ended
     }
 }
 

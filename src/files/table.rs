@@ -114,15 +114,33 @@ impl<'a> TableRow<'a> {
     pub fn number(&self, column: usize, name: &str, unit: &str) -> Result<f64, TableError> {
         let text = self.text(column);
         text.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(|| {
-            let advice = decimal_comma(text).unwrap_or("correct or leave out the line");
+            let advice = comma(text).unwrap_or_else(|| "correct or leave out the line".to_owned());
             TableError::new(self.line, format!("{name} = {text:?} is no finite number [{unit}]; {advice}"))
         })
     }
 }
 
-/// Advice on a cell that has a comma in the place of a decimal point.
-pub fn decimal_comma(cell: &str) -> Option<&'static str> {
-    cell.contains(',').then_some("write a decimal point in the place of the comma")
+/// Advice on a cell with commas, which stand in the place of a decimal point or between thousands.
+pub fn comma(cell: &str) -> Option<String> {
+    let digits = cell.strip_prefix(['-', '+']).unwrap_or(cell);
+    let sign = &cell[..cell.len() - digits.len()];
+    let (whole, rest) = digits.split_once('.').map_or((digits, ""), |(whole, _)| (whole, &digits[whole.len()..]));
+    let groups: Vec<&str> = whole.split(',').collect();
+    let are_digits = groups.iter().all(|group| !group.is_empty() && group.bytes().all(|byte| byte.is_ascii_digit()));
+    let thousands = are_digits
+        && (1..=3).contains(&groups[0].len())
+        && !groups[0].starts_with('0')
+        && groups[1..].iter().all(|group| group.len() == 3);
+    let joined = sign.to_owned() + &groups.concat() + rest;
+    match groups[..] {
+        [_] => None,
+        [_, _] if thousands && rest.is_empty() => Some(format!(
+            "write {joined} if the comma separates thousands, {sign}{} if it is a decimal comma",
+            groups.join(".")
+        )),
+        _ if thousands => Some(format!("write {joined}: thousands are not separated")),
+        _ => Some("write a decimal point in the place of the comma".to_owned()),
+    }
 }
 
 /// Number of things in words.
@@ -191,6 +209,14 @@ mod tests {
             ("a;b\n1,5;2\n", &["line 1", "semicolons"]),
             ("a\tb\n1\t2\n", &["line 1", "tabs"]),
             ("a,b\n1,\"0,5\"\n", &["line 2", "b = \"0,5\"", "decimal point"]),
+            (
+                "a,b\n1,\"8,000\"\n",
+                &["line 2", "write 8000 if the comma separates thousands, 8.000 if it is a decimal comma"],
+            ),
+            ("a,b\n1,\"-8,000.5\"\n", &["write -8000.5: thousands are not separated"]),
+            ("a,b\n1,\"1,250,000\"\n", &["write 1250000: thousands are not separated"]),
+            ("a,b\n1,\"0,375\"\n", &["write a decimal point in the place of the comma"]),
+            ("a,b\n1,\"8,00\"\n", &["write a decimal point in the place of the comma"]),
             ("a,b\n1;2,3\n", &["line 2", "a = \"1;2\""]),
             ("a,b\n1,nan\n", &["line 2", "b = \"nan\" is no finite number [m]"]),
             ("a,b\n1,1_000\n", &["line 2", "b = \"1_000\""]),

@@ -184,7 +184,8 @@ pub fn type_attributes(variable: &Variable) -> Vec<(&'static str, String)> {
             attributes.extend(measure.is_relative().then(|| ("relativeQuantity", "true".to_owned())));
             attributes.extend(min.is_finite().then(|| ("min", number(min))));
             attributes.extend(max.is_finite().then(|| ("max", number(max))));
-            attributes.extend((nominal != 1.0).then(|| ("nominal", number(nominal))));
+            let says_nothing = nominal == 1.0 && variable.causality() == Causality::Parameter;
+            attributes.extend((!says_nothing).then(|| ("nominal", number(nominal))));
         }
         Kind::Integer { min, max } => {
             attributes.push(("min", min.to_string()));
@@ -202,6 +203,7 @@ pub fn description_attributes(variable: &Variable) -> Vec<(&'static str, String)
     let (causality, initial) = match variable.causality() {
         Causality::Parameter => ("parameter", Some("exact")),
         Causality::Input => ("input", None),
+        Causality::Output if variable.element.is_some() => ("local", Some("calculated")),
         Causality::Output => ("output", Some("calculated")),
     };
     let mut attributes = vec![

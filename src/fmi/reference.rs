@@ -3,10 +3,9 @@
 use super::settings::start_value;
 use super::table::{enumerations, table};
 use super::units::Measure;
-use super::variable::{Access, Causality, Kind, Reference, Value, Variable};
+use super::variable::{Causality, Group, Kind, Reference, Value, Variable};
 use crate::config::display_number;
 use crate::config::retired::{RETIRED, Retired};
-use crate::config::row::Level;
 use std::fmt::Write;
 
 /// Cells about a variable in a table for people.
@@ -80,51 +79,39 @@ pub struct ReferenceTable {
     pub title: &'static str,
     /// Sentence below the heading; may be empty.
     pub about: &'static str,
-    /// Causality and, of parameters, level of its rows.
-    shows: (Causality, Option<Level>),
+    /// Groups of its rows.
+    shows: &'static [Group],
 }
 
 impl ReferenceTable {
     /// The rows of the section, in the order of the table.
     pub fn rows(&self) -> impl Iterator<Item = &'static Variable> {
-        let (causality, level) = self.shows;
-        let listed = move |v: &&Variable| v.causality() == causality && level.is_none_or(|level| level_of(v) == level);
-        table().iter().filter(listed)
+        table().iter().filter(|variable| self.shows.contains(&variable.group()))
     }
 
     /// Columns of the section in `docs/reference.md`.
     fn columns(&self) -> &'static [&'static str] {
-        match self.shows.0 {
-            Causality::Input => &["name", "reference", "unit", "default", "range", "meaning"],
-            Causality::Output => &["name", "reference", "unit", "range", "meaning"],
-            Causality::Parameter => &["name", "reference", "unit", "default", "range", "tunable", "meaning"],
+        match self.rows().next().map(Variable::causality) {
+            Some(Causality::Parameter) => &["name", "reference", "unit", "default", "range", "tunable", "meaning"],
+            Some(Causality::Input) => &["name", "reference", "unit", "default", "range", "meaning"],
+            Some(Causality::Output) | None => &["name", "reference", "unit", "range", "meaning"],
         }
     }
 }
 
-/// Readers for whom a variable is meant: all of them but for the expert parameters.
-fn level_of(variable: &Variable) -> Level {
-    match variable.access {
-        Access::Parameter(row) => row.level,
-        Access::Preset | Access::RealInput(_) | Access::Ramp(_) | Access::ChoiceInput(..) | Access::Output(_) => {
-            Level::Basic
-        }
-    }
-}
-
-/// The tables of all variables, in the order in which people read them: basic parameters before expert ones.
+/// The tables of all variables, in the order in which people read them: what every run sets comes first.
 pub const SECTIONS: [ReferenceTable; 4] = [
-    ReferenceTable { title: "Inputs", about: "", shows: (Causality::Input, None) },
-    ReferenceTable { title: "Outputs", about: "", shows: (Causality::Output, None) },
     ReferenceTable {
         title: "Basic parameters",
         about: "They describe wheel, vehicle, track, material and run.",
-        shows: (Causality::Parameter, Some(Level::Basic)),
+        shows: &[Group::Basic],
     },
+    ReferenceTable { title: "Inputs", about: "", shows: &[Group::Input, Group::Rate] },
+    ReferenceTable { title: "Outputs", about: "", shows: &[Group::Output] },
     ReferenceTable {
         title: "Expert parameters",
         about: "Their defaults are meant to be kept, unless one knows the theory behind them.",
-        shows: (Causality::Parameter, Some(Level::Expert)),
+        shows: &[Group::Expert],
     },
 ];
 

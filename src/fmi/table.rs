@@ -21,13 +21,18 @@ use wheelrail_slave::{CallError, Outcome};
 /// Number of rows: the preset, parameters, inputs and outputs.
 const COUNT: usize = 1 + Config::COUNT + Inputs::CONTROLS + Drive::ROWS.len() + Drive::RAMPS + Outputs::ROWS.len();
 
-/// All rows: inputs, outputs, parameters by their numbers, profiles.
+/// Basic parameters that every run sets, the first of all rows.
+const FIRST: [&str; 5] = ["preset", "initial.velocity", "model.nominal_load", "friction.coefficient", "wheel.radius"];
+
+/// All rows in the order of their [`Group`](super::variable::Group)s: first what every run sets, time derivatives of inputs last.
 pub fn table() -> &'static [Variable] {
     // Arrays here and below: vectors would be lost when the library is unloaded, for statics are never dropped.
     static ROWS: OnceLock<[Variable; COUNT]> = OnceLock::new();
     ROWS.get_or_init(|| {
-        let (profiles, outputs): (Vec<_>, Vec<_>) = outputs().partition(|row| row.dimension.is_some());
-        let mut rows = inputs().into_iter().chain(outputs).chain(parameters()).chain(profiles);
+        let mut rows: Vec<_> = inputs().into_iter().chain(outputs()).chain(parameters()).collect();
+        let first = |row: &Variable| FIRST.iter().position(|name| *name == row.name).unwrap_or(FIRST.len());
+        rows.sort_by_key(|row| (row.group(), first(row), row.dimension.is_some()));
+        let mut rows = rows.into_iter();
         from_fn(|_| rows.next().unwrap_or_else(preset))
     })
 }

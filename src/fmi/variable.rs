@@ -1,7 +1,7 @@
 //! Interface variables: rows of [`super::table`], and elements of rows that are arrays.
 
 use crate::config::Config;
-use crate::config::row::Row;
+use crate::config::row::{Level, Row};
 use crate::simulation::{Drive, Inputs, OutputRow, Outputs, Read};
 
 pub use crate::config::value::{Enumeration, Kind, Value};
@@ -26,7 +26,7 @@ pub enum Access {
     Output(&'static OutputRow),
 }
 
-/// FMI causality of a variable.
+/// FMI causality of a variable. A point of a profile is an output like the whole profile; FMI 2.0 declares it `local`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Causality {
     /// Set before the start, or tuned during a run.
@@ -35,6 +35,23 @@ pub enum Causality {
     Input,
     /// Read.
     Output,
+}
+
+/// Group of variables that people look for together. Variables are listed in the order of their groups.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Group {
+    /// Parameters for all users.
+    Basic,
+    /// Inputs but for time derivatives of others.
+    Input,
+    /// Outputs, whole profiles among them.
+    Output,
+    /// Parameters with defaults that are meant to be kept.
+    Expert,
+    /// Points of profiles.
+    Point,
+    /// Time derivatives of inputs.
+    Rate,
 }
 
 /// Dependence of an output in Initialization Mode.
@@ -77,6 +94,22 @@ impl Variable {
             Access::Preset | Access::Parameter(_) => Causality::Parameter,
             Access::RealInput(_) | Access::Ramp(_) | Access::ChoiceInput(..) => Causality::Input,
             Access::Output(_) => Causality::Output,
+        }
+    }
+
+    /// The group in which the variable is listed.
+    pub fn group(&self) -> Group {
+        match self.access {
+            Access::Preset => Group::Basic,
+            Access::Parameter(row) => match row.level {
+                Level::Basic => Group::Basic,
+                Level::Expert => Group::Expert,
+            },
+            Access::RealInput(_) if self.name.ends_with("_rate") => Group::Rate,
+            Access::RealInput(_) | Access::ChoiceInput(..) => Group::Input,
+            Access::Output(_) if self.element.is_some() => Group::Point,
+            Access::Output(_) => Group::Output,
+            Access::Ramp(_) => Group::Rate,
         }
     }
 

@@ -64,7 +64,7 @@ outputs! {
     307 contact_utilisation: real "contact.utilisation", in "1" as "%", from 0.0,
         "Share of the friction limit in use: friction force over contact.friction contact.force_y. The friction force is the amount of \
          contact.force_x and contact.force_z together without what pressure on slopes of the rail adds";
-    308 contact_stick_fraction: real "contact.stick_fraction", in "1" as "%", from 0.0 to 1.0,
+    308 contact_stick_fraction: real "contact.stick_fraction", in "1" as "%", from 0.0 to 1.0, nominal 0.5,
         "Sticking share of the contact width";
     309 contact_half_width: real "contact.half_width", in "m" as "mm", from 0.0, nominal 5e-3,
         "Half the distance between the outermost contact edges, on the longest line of the patch";
@@ -316,7 +316,7 @@ outputs! {
         "Lateral force of a line on the wheel, to the right positive; contact.force_z is their sum";
     23300 line_tread_slip_z: lines "line.tread_slip_z", in "m/s" as "mm/s", nominal 1e-2,
         "Lateral part of line.tread_slip, to the right positive";
-    22500 line_stick: lines "line.stick_fraction", in "1" as "%", from 0.0 to 1.0, "Sticking share of a line";
+    22500 line_stick: lines "line.stick_fraction", in "1" as "%", from 0.0 to 1.0, nominal 0.5, "Sticking share of a line";
     22600 line_friction: lines "line.friction", in "1", from 0.0, nominal 0.3, "Friction coefficient of a line";
     22700 line_tread_slip: lines "line.tread_slip", in "m/s" as "mm/s", nominal 1e-2,
         "Pressure-weighted mean slip velocity of a line";

@@ -7,7 +7,7 @@ import math
 import os
 import sys
 import time
-from contextlib import ExitStack, redirect_stderr, redirect_stdout
+from contextlib import ExitStack, redirect_stderr, redirect_stdout, suppress
 from pathlib import Path
 
 from . import __version__, analysis, completion, damage, operating, paraview
@@ -16,6 +16,8 @@ from .compare import Died
 from .controllers import ControllerFailed
 from .files import BadFile, json_schema
 from .fmu import Fmu, Refused, default_path
+from .interrupt import told_to_end
+from .opened import fmu_file
 from .output import fresh
 from .page import command as page
 from .results import directory, spare
@@ -180,15 +182,11 @@ def rigid(scenario):
 
 def opened(path, scenario):
     """Refuses, before anything is computed, an FMU that is missing or another one, and wheel parameters that it does not know."""
-    if not path.is_file():
-        raise BadFile(
-            f"{path} does not exist: build it with `make fmu`, name one with --fmu or the variable WHEELRAIL_FMU, or take --rigid"
-        )
     try:
-        with Fmu(path) as known:
+        with Fmu(fmu_file(path, ", with --fmu, or take --rigid")) as known:
             parameters = {v.name: v for v in known.description.modelVariables if v.causality == "parameter"}
-    except Exception as error:  # whatever zip, XML and fmpy say of a file that is no FMU
-        raise BadFile(f"{path} is no FMU: {' '.join(str(error).split()) or type(error).__name__}") from None
+    except Refused as error:
+        raise BadFile(str(error)) from None
     if "mesh.elements_per_half_width" not in parameters:
         raise BadFile(f"{path} is an FMU, but not that of a wheel")
     scenarios.check_wheel(scenario, parameters)
@@ -213,8 +211,8 @@ def checked(options, scenario):
 
 
 def main(argv=None):
-    """Runs a command. Errors become one line: wrong arguments and files end with 2, runs that fail with 1, Ctrl-C with 130.
-    Programs with windows have no streams: nothing is printed then."""
+    """Runs a command. Errors become one line: wrong arguments and files end with 2, runs that fail with 1, Ctrl-C
+    and other signals with 128 and their number. Programs with windows have no streams: nothing is printed then."""
     with ExitStack() as stack:
         for redirect, stream in ((redirect_stdout, sys.stdout), (redirect_stderr, sys.stderr)):
             if stream is None:
@@ -234,7 +232,7 @@ def command(argv):
     if options.log:
         logging.basicConfig(level=options.log.upper(), format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
     try:
-        with in_lines():
+        with in_lines(), told_to_end():
             run(options)
         sys.stdout.flush()
     except BrokenPipeError:  # who read what is printed has gone, such as `head`
@@ -244,8 +242,8 @@ def command(argv):
         end(error, 2)
     except (Refused, TimeoutError, ControllerFailed, TrackEnds, Died, SweepStopped, WheelrailWarning, OSError) as error:
         end(error, getattr(error, "code", 1))
-    except KeyboardInterrupt:
-        end("stopped", 130)
+    except KeyboardInterrupt as stop:
+        end(str(stop) or "stopped", getattr(stop, "code", 130))
 
 
 def drop_output():
@@ -254,8 +252,9 @@ def drop_output():
 
 
 def end(error, code):
-    """Ends with one line."""
-    print(f"error: {' '.join(str(error).split())}", file=sys.stderr)
+    """Ends with one line, unless the terminal is gone."""
+    with suppress(OSError):
+        print(f"error: {' '.join(str(error).split())}", file=sys.stderr)
     try:
         sys.stdout.flush()
     except OSError:

@@ -48,7 +48,7 @@ def scalars(description):
             element.type = TYPES.get(row.type, row.type)
             if size:
                 element.name, element.valueReference = f"{row.name}[{index + 1}]", row.valueReference + 1 + index
-                element.dimensions, element.shape = [], None
+                element.dimensions, element.shape, element.causality = [], None, "local"
             variables[element.name] = element
             places[element.valueReference] = Place(row.valueReference, row.type, index, size or 1)
     return variables, places

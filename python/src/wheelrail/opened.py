@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any, Self
 from weakref import finalize
 from xml.etree import ElementTree
-from zipfile import BadZipFile
 
 import fmpy
 from fmpy.model_description import ScalarVariable
@@ -39,6 +38,38 @@ def default_path() -> Path:
     return Path(os.environ.get("WHEELRAIL_FMU") or (inside if inside.is_file() else built))
 
 
+def fmu_file(path: str | os.PathLike, instead: str = "") -> Path:
+    """The path of an FMU, if a file is there; else it is refused with what may be named instead."""
+    path = Path(path)
+    if path.is_dir():
+        raise FileNotFoundError(f"{path} is a folder and no FMU: name the file, such as {path / 'wheelrail.fmu'}{instead}")
+    if not path.is_file():
+        raise FileNotFoundError(f"{path} does not exist: build it with `make fmu`, or name one by the variable WHEELRAIL_FMU{instead}")
+    return path
+
+
+def _unpacked(path):
+    """A temporary folder with the content of an FMU."""
+    folder = None
+    try:
+        folder = TemporaryFolder("wheelrail-")
+        fmpy.extract(str(path), unzipdir=str(folder.path))
+        return folder
+    except Exception as failure:  # whatever zip and fmpy say of what is no archive
+        if folder:
+            folder.remove()
+        if isinstance(failure, OSError):
+            where = folder.path.parent if folder else "a temporary folder"
+            room = "make room there, or name another folder by the variable TMPDIR"
+            raise Refused(f"{path} cannot be unpacked into {where}: {failure.strerror or failure}; {room}") from failure
+        raise _no_fmu(path, failure) from failure
+
+
+def _no_fmu(path, failure):
+    """The refusal of a file that is no FMU."""
+    return Refused(f"{path} is no FMU: {(str(failure).splitlines() or [type(failure).__name__])[0]}")
+
+
 class Fmu(Unique):
     """An FMU extracted once, for any number of instances: that at `path`, or at `default_path()`. A context manager."""
 
@@ -48,17 +79,13 @@ class Fmu(Unique):
         path = default_path() if path is None else path
         if not isinstance(path, (str, os.PathLike)):
             raise ValueError(f"Fmu({path!r}): expected the path of an FMU, or nothing")
-        file = os.path.abspath(path)
-        if not os.path.isfile(file):
-            raise FileNotFoundError(f"{path} does not exist: build it with `make fmu`, or name one by the variable WHEELRAIL_FMU")
-        self._folder = TemporaryFolder("wheelrail-")
+        self._folder = _unpacked(fmu_file(path))
         try:
-            self.directory = fmpy.extract(file, unzipdir=str(self._folder.path))
+            self.directory = str(self._folder.path)
             self.description = fmpy.read_model_description(self.directory)
-        except (BadZipFile, KeyError, OSError, ValueError, SyntaxError) as failure:
+        except Exception as failure:  # whatever XML and fmpy say of what is no description
             self._folder.remove()
-            why = (str(failure).splitlines() or [type(failure).__name__])[0]
-            raise Refused(f"{path} is no FMU: {why}") from failure
+            raise _no_fmu(path, failure) from failure
         if self.description.coSimulation is None or self.description.fmiVersion[0] not in "23":
             self._folder.remove()
             raise Refused(f"{path} is no FMU of FMI 2.0 or 3.0 for co-simulation")

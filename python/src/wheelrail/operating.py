@@ -19,6 +19,7 @@ import numpy as np
 
 from .files import BadFile
 from .fmu import Fmu, Wheel, default_path
+from .opened import fmu_file
 from .output import write
 from .records import attributes, library
 from .units import UnitError, beside, converted, headed
@@ -181,9 +182,7 @@ def add_command(commands: Any) -> None:
 
 def run(options: Namespace) -> None:
     """Prints or writes the curve; with a file another one beside it says units and meanings."""
-    if not options.fmu.is_file():
-        raise BadFile(f"{options.fmu} does not exist: build it with `make fmu`, or name one with --fmu or the variable WHEELRAIL_FMU")
-    with Fmu(options.fmu) as fmu:
+    with Fmu(fmu_file(options.fmu, " or with --fmu")) as fmu:
         given = {name: _converted(fmu, name, value) for name, value in options.settings}
         inputs = {name: value for name, value in given.items() if fmu.variable(name).causality == "input"}
         parameters = {name: value for name, value in given.items() if name not in inputs}

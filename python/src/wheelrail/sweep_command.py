@@ -76,8 +76,8 @@ def _computed(distributed, options, scenario, fmu, path, missing):
             total = done + sum(weigh(point) for _, point in missing)
             progress = stack.enter_context(Progress(total, "stops", done))
             return sweep(client, scenario, fmu, path, tell, options.limit)
-    except KeyboardInterrupt:
-        reason, code = "stopped", 130
+    except KeyboardInterrupt as stop:
+        reason, code = str(stop) or "stopped", getattr(stop, "code", 130)
     except Unwritten as error:
         reason, code = str(error), 1
     except (SchedulerGone, distributed.CancelledError, OSError) as error:

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
+THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(,\d{3})+(\.\d*)?", re.ASCII)
 SEPARATORS = {";": "semicolons", "\t": "tabs"}
 
 
@@ -19,17 +20,36 @@ class BadFile(Exception):
     """A file that cannot be used; the text names file, line, name and range."""
 
 
+SAVE = 'save it as UTF-8 ("CSV UTF-8" in Excel, Out-File -Encoding utf8 in PowerShell, "encoding" in editors)'
+
+
 def text_of(path: str | Path) -> str:
-    """Text of a regular file."""
+    """Text of a regular file in UTF-8; what another encoding seems to be, and how to save it otherwise, is said."""
     path = Path(path)
     if path.is_fifo() or path.is_char_device():
         raise BadFile(f"{path}: is no regular file")
     try:
-        return path.read_text(encoding="utf-8-sig")  # some editors begin files with a mark
+        content = path.read_bytes()
+        text = content.decode("utf-8-sig")  # some editors begin files with a mark
     except OSError as error:
         raise BadFile(f"{path}: cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError as error:
-        raise BadFile(f"{path}: cannot be read: no text in UTF-8, such as JSON or CSV: {error}") from None
+        raise BadFile(f"{path}: cannot be read: {encoding_of(content, error.start)}") from None
+    if "\0" in text:
+        raise BadFile(f"{path}: cannot be read: {encoding_of(content)}")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def encoding_of(content: bytes, valid: int = 0) -> str:
+    """What a content seems to be that is no text in UTF-8 from a byte on, and what to do."""
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return f'it is text in UTF-16, as > in Windows PowerShell and "Unicode Text" in Excel write it; {SAVE}'
+    if content.startswith(b"PK\x03\x04"):
+        return f"it is an archive, such as a workbook of Excel, and no text; {SAVE}"
+    if b"\0" in content:
+        return f"it has zero bytes, as text in UTF-16 does that Windows programs write, or it is no text; {SAVE}"
+    line = 1 + content[:valid].count(b"\n")
+    return f"line {line} is not in UTF-8 (byte {content[valid]:#04x}), perhaps in Latin-1 or Windows-1252; {SAVE}"
 
 
 def read_table(path: str | Path) -> tuple[list[str], int, Iterator[tuple[int, list[str]]]]:
@@ -84,5 +104,16 @@ def number_in(path: str | Path, line: int, name: str, cell: str) -> float:
     """The number in a cell."""
     if NUMBER.fullmatch(cell):
         return float(cell)
-    advice = "; write a decimal point in the place of the comma" if "," in cell else ""
-    raise BadFile(f"{path}:{line}: {name} is {cell!r}, not a number{advice}")
+    raise BadFile(f"{path}:{line}: {name} is {cell!r}, not a number{comma(cell)}")
+
+
+def comma(cell: str) -> str:
+    """Advice on a cell with commas, which stand in the place of a decimal point or between thousands."""
+    if "," not in cell:
+        return ""
+    joined = cell.replace(",", "")
+    if not THOUSANDS.fullmatch(cell):
+        return "; write a decimal point in the place of the comma"
+    if cell.count(",") == 1 and "." not in cell:
+        return f"; write {joined} if the comma separates thousands, {cell.replace(',', '.')} if it is a decimal comma"
+    return f"; write {joined}: thousands are not separated"

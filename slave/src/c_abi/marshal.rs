@@ -3,15 +3,25 @@
 use crate::log::{CallError, Outcome};
 use std::ffi::{CStr, CString, c_char};
 
+/// Refuses a number of elements that no array has: there are no more value references, and no more memory to address.
+pub fn check_count<T>(count: usize, name: &str) -> Outcome {
+    let most = (u32::MAX as usize).min(isize::MAX as usize / size_of::<T>());
+    if count <= most {
+        return Ok(());
+    }
+    Err(CallError::error(format!("number of elements of {name} = {count} is outside its range: at most {most}")))
+}
+
 /// The array a master passed; an empty one may be NULL.
 ///
 /// # Safety
 /// `first` is NULL or the first of `count` elements that outlive the call.
 pub unsafe fn slice<'a, T>(first: *const T, count: usize, name: &str) -> Outcome<&'a [T]> {
+    check_count::<T>(count, name)?;
     match (count, first.is_null()) {
         (0, _) => Ok(&[]),
         (_, true) => Err(CallError::error(format!("{name} is NULL"))),
-        // SAFETY: the condition of this function.
+        // SAFETY: the condition of this function, and no more bytes than can be addressed.
         _ => Ok(unsafe { std::slice::from_raw_parts(first, count) }),
     }
 }

@@ -1,7 +1,7 @@
 //! Saving, restoring and freeing of states, in both versions of the standard.
 
 use super::component::Component;
-use super::marshal::{slice, store};
+use super::marshal::{check_count, slice, store};
 use super::states::Handle;
 use crate::instance::Slave;
 use crate::lifecycle::Call;
@@ -66,6 +66,7 @@ impl<S: Slave> Component<S> {
 
     /// Writes a saved state as bytes.
     pub unsafe fn serialize_state(&self, handle: Handle, place: *mut u8, size: usize) -> Outcome {
+        check_count::<u8>(size, "serializedState")?;
         let bytes = self.state_bytes(handle)?;
         if size < bytes.len() {
             let needed = bytes.len();

@@ -81,7 +81,10 @@ impl WheelSlave {
         derivatives::check_outputs(unknown)?;
         derivatives::check_shown(self.config.tuning.shown_line, unknown.iter().copied())?;
         let failed = |error| CallError::error(format!("directional derivative: {error}"));
-        let difference = self.compute(life, |simulation| simulation.difference(direction))?.map_err(failed)?;
+        // It needs the most stack of all, and much longer than a thread takes to start.
+        let simulation = self.simulation(life)?;
+        let difference =
+            aside::run(life.aside(), &mut |_, _| {}, |_| simulation.difference(direction))?.map_err(failed)?;
         derivatives::quotients(&difference, unknown)
     }
 

@@ -8,7 +8,7 @@ use crate::fmi::description::{
 use crate::fmi::instance::derivatives::{INPUT_DERIVATIVE_ORDER, OUTPUT_DERIVATIVE_ORDER};
 use crate::fmi::table::enumerations;
 use crate::fmi::v2::variables::variables;
-use crate::fmi::variable::{Causality, Kind, Start, Variable};
+use crate::fmi::variable::{Group, Kind, Start, Variable};
 use std::io;
 use std::sync::OnceLock;
 use uuid::Uuid;
@@ -108,13 +108,13 @@ fn scalar_variable(xml: &mut XmlText, variable: &Variable) -> io::Result<()> {
     element.write_inner_content(content).map(drop)
 }
 
-/// Outputs depend on every input, which the standard expresses by leaving the list out: the derivatives of
+/// Outputs, which points of profiles are not, depend on every input, which the standard expresses by leaving the list out: the derivatives of
 /// `fmi2GetDirectionalDerivative` are those by the inputs of the step that led to the communication point. Initially
 /// outputs depend on everything, too, or are zero by definition.
 fn model_structure(xml: &mut XmlText, extent: Extent) -> io::Result<()> {
     let outputs: Vec<_> = (1usize..)
         .zip(extent.variables())
-        .filter(|(_, variable)| variable.causality() == Causality::Output)
+        .filter(|(_, variable)| variable.group() == Group::Output)
         .map(|(index, variable)| (index.to_string(), variable.start))
         .collect();
     list(xml, "Outputs", |xml| outputs.iter().try_for_each(|(index, _)| empty(xml, "Unknown", &[("index", index)])))?;

@@ -26,7 +26,9 @@ pub fn variables() -> &'static [Variable] {
     // Arrays here and below: vectors would be lost when the library is unloaded, for statics are never dropped.
     static SCALARS: OnceLock<[Variable; COUNT]> = OnceLock::new();
     SCALARS.get_or_init(|| {
-        let mut scalars = table().iter().flat_map(Variable::elements);
+        let mut scalars: Vec<_> = table().iter().flat_map(Variable::elements).collect();
+        scalars.sort_by_key(Variable::group);
+        let mut scalars = scalars.into_iter();
         from_fn(|_| scalars.next().unwrap_or_else(preset))
     })
 }

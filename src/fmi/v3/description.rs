@@ -72,8 +72,8 @@ fn type_definitions(xml: &mut XmlText) -> io::Result<()> {
             xml.create_element("Float64Type").with_attributes(attributes).write_empty()?;
         }
         for enumeration in enumerations() {
-            let attributes = [("name", enumeration.name), ("description", enumeration.description)];
-            let element = xml.create_element("EnumerationType").with_attributes(attributes);
+            // Without the description that the standard allows: fmpy up to 0.3.23 fails at one.
+            let element = xml.create_element("EnumerationType").with_attribute(("name", enumeration.name));
             element.write_inner_content(|xml| items(xml, enumeration))?;
         }
         Ok(())

@@ -7,7 +7,7 @@ use crate::config::display_number;
 const FAR: f64 = 1000.0;
 
 impl Simulation {
-    /// Doubts about the profiles at the start: gaps in samples, and samples far ahead.
+    /// Doubts about the profiles at the start: gaps in samples, cross-sections, and samples far ahead.
     pub fn doubts_of_profiles(&self) -> Vec<String> {
         let surfaces = &self.model().rolling.contact.surfaces;
         let gap = |(name, profile): (&str, &crate::surface::Profile)| {
@@ -21,7 +21,18 @@ impl Simulation {
                 )
             })
         };
-        let gaps = [("rail.profile", &surfaces.rail), ("wheel.profile", &surfaces.wheel)].into_iter().filter_map(gap);
+        let section = |(name, profile): (&str, &crate::surface::Profile)| {
+            profile.cross_section().map(|size| {
+                let [height, length] = size.map(|size| display_number(1e3 * size));
+                format!(
+                    "{name}: the samples differ by {height} mm in height on a length of {length} mm, as those of a cross-section do, \
+                     but {name} lies along the direction of rolling; the shape across it is given by contact.wheel_lateral_radius \
+                     and contact.rail_lateral_radius, or as a patch by contact.rows"
+                )
+            })
+        };
+        let both = [("rail.profile", &surfaces.rail), ("wheel.profile", &surfaces.wheel)];
+        let gaps = both.into_iter().filter_map(gap).chain(both.into_iter().filter_map(section));
         let ahead = surfaces.rail.sample_ends().filter(|ends| self.are_far(*ends));
         gaps.chain(ahead.map(|ends| self.far(ends, [0.0; 2]))).collect()
     }

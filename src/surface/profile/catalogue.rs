@@ -7,7 +7,7 @@ use super::error::ProfileError;
 use super::features::Feature;
 use super::forms::Form;
 use super::roughness::{self, EN_ISO_3095, LARGEST_TABLE, LONGEST_LIMIT, Spectrum};
-use super::samples::{HeightSamples, ROUNDED_PERIOD};
+use super::samples::{HeightSamples, ROUNDED_PERIOD, ROUNDED_SUM};
 use super::text::FeatureCall;
 use super::undulation::{Sinusoid, Texture, Undulation, Window};
 
@@ -127,7 +127,9 @@ fn defect(mut form: Form, given: &mut FeatureArguments, site: &Site) -> Result<F
     let [begin, end] = form.reach();
     let length = end - begin;
     let turn = site.body.circumference();
-    if let Some(turn) = turn.filter(|turn| length > *turn) {
+    let rounded = if turn.is_some() { ROUNDED_PERIOD } else { ROUNDED_SUM };
+    let shortest = if matches!(form, Form::Samples(_)) { length * (1.0 - rounded) } else { length };
+    if let Some(turn) = turn.filter(|turn| shortest > *turn) {
         let range = format!("at most the circumference {} m", display_number(turn));
         return Err(given.outside("length", format!("{length} m"), range));
     }
@@ -135,7 +137,6 @@ fn defect(mut form: Form, given: &mut FeatureArguments, site: &Site) -> Result<F
     if length.is_infinite() && (given.has("every") || given.has("count")) {
         return Err(given.missing("length", "where each of them ends, since they are repeated"));
     }
-    let shortest = if matches!(form, Form::Samples(_)) { length * (1.0 - ROUNDED_PERIOD) } else { length };
     let every = given.optional("every", "m", [shortest, turn.unwrap_or(1e7).max(length)])?;
     let count = given.whole("count", [1.0, 1e9])?;
     let (every, count) = match (every, count, turn) {

@@ -53,6 +53,14 @@ impl Defect {
         }
     }
 
+    /// Height and length \[m] of samples that look like a cross-section.
+    pub fn cross_section(&self) -> Option<[f64; 2]> {
+        match &self.form {
+            Form::Samples(samples) => samples.cross_section(),
+            _ => None,
+        }
+    }
+
     /// Distance \[m] of a position from the middle of the one form that may reach it.
     fn local(&self, position: f64) -> f64 {
         let Repetition { position: first, every, count, turn } = self.repetition;

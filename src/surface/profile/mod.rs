@@ -105,6 +105,11 @@ impl Profile {
         self.local().find_map(Defect::gap)
     }
 
+    /// Height and length \[m] of the first samples that look like a cross-section.
+    pub fn cross_section(&self) -> Option<[f64; 2]> {
+        self.local().find_map(Defect::cross_section)
+    }
+
     /// Presence of any feature between two positions \[m].
     pub fn meets(&self, low: f64, high: f64) -> bool {
         self.features.iter().any(|feature| feature.meets(low, high))

@@ -23,8 +23,13 @@ pub fn csv(samples: &[[f64; 2]]) -> String {
 const HIGHEST: f64 = 0.1;
 /// Difference of the heights at both ends that is rounding: in metres, and as share of the range of all heights.
 const ROUNDED: [f64; 2] = [1e-9, 1e-4];
-/// Difference of the distance of the ends from the period that is rounding, as share of the period.
-pub const ROUNDED_PERIOD: f64 = 1e-9;
+/// Difference of the distance of the ends from the period that is rounding, as share of the period: of positions on the
+/// circumference of a wheel that are written with four digits behind the point.
+pub const ROUNDED_PERIOD: f64 = 5e-5;
+/// Rounding of a difference of two positions, as share of it, against a period that is given beside the samples.
+pub const ROUNDED_SUM: f64 = 1e-9;
+/// Smallest height \[m] and steepness of short samples that are those of a cross-section, and their largest length \[m].
+const SECTION: [f64; 3] = [3e-3, 0.05, 0.3];
 /// Distance of samples, in usual ones, from which it is a gap; fewer samples than some have no usual distance \[1].
 const GAP: f64 = 10.0;
 const FEW: usize = 10;
@@ -81,7 +86,8 @@ impl HeightSamples {
     pub fn close(&mut self, period: f64) -> Result<(), String> {
         let last = self.points.x.len() - 1;
         let (x, height) = (self.points.x[0] + period, self.points.value[0]);
-        if self.points.x[last] >= x - ROUNDED_PERIOD * period {
+        let [before, end] = [last - 1, last].map(|k| self.points.x[k]);
+        if end >= x - (ROUNDED_PERIOD * period).min(0.5 * (end - before)) && before < x {
             let [low, high] = self.range();
             let found = self.points.value[last];
             if (found - height).abs() > ROUNDED[0].max(ROUNDED[1] * (high - low)) {
@@ -111,16 +117,29 @@ impl HeightSamples {
         [heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max)]
     }
 
-    /// Ends \[m] of the longest distance between two samples of different height, where it is [`GAP`] times as long as
-    /// usual, and the usual distance: the median.
-    pub fn gap(&self) -> Option<([f64; 2], f64)> {
-        let pairs = || self.points.x.windows(2).zip(self.points.value.windows(2));
-        let mut lengths: Vec<f64> = pairs().map(|(x, _)| x[1] - x[0]).collect();
+    /// Usual distance of samples \[m], the median; none of few.
+    fn usual_distance(&self) -> Option<f64> {
+        let mut lengths: Vec<f64> = self.points.x.windows(2).map(|x| x[1] - x[0]).collect();
         lengths.sort_unstable_by(f64::total_cmp);
-        let usual = *lengths.get(lengths.len() / 2).filter(|_| lengths.len() >= FEW)?;
-        let uneven = pairs().filter(|(_, height)| height[0] != height[1]).map(|(x, _)| [x[0], x[1]]);
+        lengths.get(lengths.len() / 2).copied().filter(|_| lengths.len() >= FEW)
+    }
+
+    /// Ends \[m] of the longest distance between two samples of different height, where it is [`GAP`] times as long as
+    /// usual, and the usual distance.
+    pub fn gap(&self) -> Option<([f64; 2], f64)> {
+        let usual = self.usual_distance()?;
+        let pairs = self.points.x.windows(2).zip(self.points.value.windows(2));
+        let uneven = pairs.filter(|(_, height)| height[0] != height[1]).map(|(x, _)| [x[0], x[1]]);
         let longest = uneven.max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
         (longest[1] - longest[0] > GAP * usual).then_some((longest, usual))
+    }
+
+    /// Height and length \[m] of samples that are as short and steep as the cross-section of a rail head or a tread.
+    pub fn cross_section(&self) -> Option<[f64; 2]> {
+        let [low, high] = self.range();
+        let (height, length) = (high - low, self.usual_distance()? * (self.points.x.len() - 1) as f64);
+        let [least, steepness, longest] = SECTION;
+        (height >= least && height >= steepness * length && length <= longest).then_some([height, length])
     }
 
     /// Shortest wavelength that they can hold \[m]: twice their smallest distance.

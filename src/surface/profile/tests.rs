@@ -360,6 +360,78 @@ fn files_without_meaning_are_refused_by_line_and_value() {
     });
 }
 
+/// A wheel that was measured all around is written with the digits that its owner likes.
+#[test]
+fn a_closed_profile_of_a_wheel_is_closed_whatever_the_digits_of_its_positions() {
+    const COUNT: usize = 200;
+    for radius in [0.33, 0.42, 0.45, RADIUS, 0.625] {
+        let turn = TAU * radius;
+        let height = |x: f64| 1e-4 * (3.0 * TAU * x / turn).sin();
+        for digits in 4..=9 {
+            let row = |k: usize| {
+                let x = turn * k as f64 / COUNT as f64;
+                format!("{x:.digits$},{:?}\n", height(if k == COUNT { 0.0 } else { x }))
+            };
+            let text: String = std::iter::once("position,height\n".to_owned()).chain((0..=COUNT).map(row)).collect();
+            let read = |folder: &Path| Profile::parse("profile.csv", Some(folder), Body::Wheel { radius });
+            let profile = with_file("digits", &text, read).unwrap_or_else(|error| panic!("{digits} digits: {error}"));
+            let places: Vec<_> = (0..1000).map(|k| turn * (k as f64 / 1000.0 - 0.5)).collect();
+            // Half a digit of the position on the steepest slope, and the chord between samples.
+            let slope = 3.0 * TAU / turn * 1e-4;
+            agrees(&profile, &places, height, 0.5 * slope * 10f64.powi(-(digits as i32)) + 1.2e-7);
+            let shortest = profile.shortest_wavelength_between(-turn, turn);
+            assert!(shortest > turn / COUNT as f64, "{digits} digits: a wave of {shortest} m at the end of the file");
+        }
+    }
+    let text = "position,height\n0,0\n1,1e-5\n2.8906,0\n";
+    let message = with_file("beyond", text, |folder| Profile::parse("profile.csv", Some(folder), WHEEL).unwrap_err());
+    let message = message.to_string();
+    assert!(
+        message.contains("length = 2.8906 m") && message.contains("at most the circumference 2.89027 m"),
+        "{message}"
+    );
+}
+
+#[test]
+fn cross_sections_of_rails_and_wheels_are_told_from_profiles_along_the_way() {
+    let section = |name: &str, body: Body, from: f64, to: f64, height: &dyn Fn(f64) -> f64| {
+        let row = |k: usize| {
+            let x = from + (to - from) * k as f64 / 72.0;
+            format!("{x:?},{:?}\n", height(x))
+        };
+        let text: String = std::iter::once("position,height\n".to_owned()).chain((0..=72).map(row)).collect();
+        with_file(name, &text, |folder| Profile::parse("profile.csv", Some(folder), body).unwrap()).cross_section()
+    };
+    // Crown, shoulder and corner of a head; conicity and flange of a tread.
+    let head = |z: f64| {
+        let z = z.abs();
+        -z * z / 0.6 - (z - 0.01).max(0.0).powi(2) / 0.22 - (z - 0.026).max(0.0).powi(2) / 0.026
+    };
+    let tread = |z: f64| -z / 40.0 + 0.028 * (-((z + 0.055) / 0.012).powi(2)).exp();
+    for (name, found) in [
+        ("head", section("head", Body::Rail, -0.036, 0.036, &head)),
+        ("tread", section("tread", WHEEL, -0.07, 0.06, &tread)),
+    ] {
+        let [height, length] = found.unwrap_or_else(|| panic!("{name} is not seen"));
+        println!("{name}: {height} m on {length} m");
+        assert!((3e-3..0.05).contains(&height) && (0.07..0.14).contains(&length), "{name}: {height} m, {length} m");
+    }
+    let squat = |x: f64| -1e-3 * (-(x / 0.015).powi(2)).exp();
+    let weld = |x: f64| 2e-3 * (1.0 - (x / 0.1).powi(2)).max(0.0);
+    let ramp = |x: f64| 0.05 * x;
+    let fresh = |x: f64| -(0.06_f64.powi(2) / 4.0 - x * x).max(0.0) / (2.0 * RADIUS);
+    type Case<'a> = (&'a str, Body, f64, &'a dyn Fn(f64) -> f64);
+    let cases: [Case; 4] = [
+        ("squat", Body::Rail, 0.05, &squat),
+        ("weld", Body::Rail, 0.15, &weld),
+        ("ramp", Body::Rail, 0.5, &ramp),
+        ("flat", WHEEL, 0.05, &fresh),
+    ];
+    for (name, body, half, height) in cases {
+        assert_eq!(section(name, body, -half, half, height), None, "{name}");
+    }
+}
+
 #[test]
 fn examples_of_the_documentation_are_profiles_and_it_names_every_feature() {
     let text = include_str!("../../../docs/profiles.md");

@@ -11,6 +11,7 @@ from fmpy import read_model_description
 
 from ..files import BadFile
 from ..fmu import default_path
+from ..tables import text_of
 from ..units import UnitError, converted, headed, unit_of
 from . import stops
 from .run import Profiles, Run, Series, of_dataset, seen_lines, seen_rows
@@ -86,12 +87,9 @@ def _vehicle_mass(fmu, about):
 def table(path):
     """Names and columns of a CSV: name to (unit or None, values), times in s. Columns may say `name [unit]`."""
     try:
-        with open(path, newline="", encoding="utf-8-sig") as file:
-            rows = [line.strip() for line in file]
-    except OSError as error:
-        raise BadFile(f"{path}: cannot be read ({error.strerror})") from error
-    except UnicodeDecodeError:
-        raise BadFile(f"{path}: is neither NetCDF nor a CSV of text; expected a record or `wheelrail simulate --out`") from None
+        rows = [line.strip() for line in text_of(path).split("\n")]
+    except BadFile as failure:
+        raise BadFile(f"{failure}; expected a record in NetCDF or a CSV, such as that of `wheelrail simulate --out`") from None
     numbered = [(k, line) for k, line in enumerate(rows, start=1) if line and not line.startswith("#")]
     names = [headed(name.strip()) for name in numbered[0][1].split(",")] if numbered else []
     if "time" not in dict(names):
