@@ -134,6 +134,59 @@ fn a_value_of_another_unit_is_told_by_its_size_and_a_ramp_through_small_values_i
     assert_eq!(ramp, [""; 0]);
 }
 
+/// A slide protection lowers a torque that had its size before; a brake that never had it is asked for its unit.
+#[test]
+fn a_torque_that_a_slide_protection_lowers_is_not_asked_for_its_unit() {
+    let after = |first: f64| {
+        warnings(&[], &[], 6, |slave, k| {
+            assert_eq!(slave.set_real("brake.torque", if k < 2 { first } else { 41.0 }), fmi2OK);
+        })
+    };
+    assert_eq!(after(8e3), [""; 0]);
+    let found = after(20.0);
+    assert!(found.len() == 1 && found[0].contains("brake.torque = ") && found[0].contains("kN.m"), "{found:?}");
+}
+
+/// A master that holds a locked wheel by its speed leaves the torque as it was; one that changes it then is told.
+#[test]
+fn an_input_that_acted_until_another_control_took_over_is_told_once_it_changes() {
+    let held = |later: f64| {
+        warnings(&[("initial.velocity", 20.0)], &[], 6, |slave, k| {
+            if k == 2 {
+                assert_eq!(slave.set_real("drive.omega", slave.real("wheel.omega")), fmi2OK);
+                assert_eq!(slave.set_integer("control.rotation", 2), fmi2OK);
+            }
+            assert_eq!(slave.set_real("brake.torque", if k < 4 { 3700.0 } else { later }), fmi2OK);
+        })
+    };
+    assert_eq!(held(3700.0), [""; 0]);
+    let found = held(3800.0);
+    assert!(found.len() == 1 && found[0].contains("brake.torque = 3800 N.m has no effect"), "{found:?}");
+}
+
+/// Warnings of a wheel at 20 m/s with a profile of its own or of the rail, after steps of `h` \[s].
+fn over(parameter: &str, profile: &str, h: f64, steps: usize) -> Vec<String> {
+    let dll = load();
+    let slave = Slave::coarse(&dll);
+    slave.set_boolean("thermal.enabled", false);
+    assert_eq!(slave.set_string(parameter, profile), fmi2OK);
+    assert_eq!(slave.set_real("initial.velocity", 20.0), fmi2OK);
+    slave.initialize();
+    (0..steps).for_each(|k| assert_eq!(slave.step(h * k as f64, h), fmi2OK));
+    slave.messages().into_iter().map(|message| message.text).collect()
+}
+
+/// A wheel out of round lifts its load and lowers it again: 20 J, of which up to a fiftieth is missing for a while. Steps
+/// of whole waves miss all of their energy, and all of their height.
+#[test]
+fn energy_that_comes_and_goes_with_a_damped_wheel_out_of_round_says_nothing_and_what_steps_pass_over_does() {
+    assert_eq!(over("wheel.profile", "polygon(order = 5, amplitude = 1e-4)", 1e-3, 200), [""; 0]);
+    let found = over("rail.profile", "sinusoid(amplitude = 1e-5, wavelength = 0.1)", 5e-3, 20);
+    for words in ["forces are inexact by", "solver.energy_residual"] {
+        assert_eq!(found.iter().filter(|text| text.contains(words)).count(), 1, "{found:?}");
+    }
+}
+
 #[test]
 fn a_moment_that_turns_a_locked_wheel_backwards_is_told_and_a_brake_does_not() {
     // Twice what adhesion carries stops a wheel without a vehicle's mass to speak of in some milliseconds.

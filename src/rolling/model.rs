@@ -43,8 +43,8 @@ pub struct RollingModel {
     pub reach: f64,
     /// Width of the patch under the nominal load, of which the heat model is \[m].
     pub patch_width: f64,
-    /// Torsion of the wheel on its hub, which falling friction can excite [rad/s].
-    pub torsion: f64,
+    /// Torsion of the wheel on its hub, which falling friction can excite.
+    pub torsion: analytic::Torsion,
 }
 
 /// Deviation of the sum of all shares from one that counts as round-off [1].
@@ -126,7 +126,7 @@ impl RollingModel {
             contact: ContactModel::new(&config, surfaces, solver, zone.max(reach))?,
             reach: zone.max(reach),
             patch_width: config.nominal_patch().width,
-            torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear).frequency,
+            torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear),
             thermal,
             spacing,
             zone,

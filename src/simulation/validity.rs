@@ -48,7 +48,7 @@ limits! {
     Chatter,
     /// Wavelength of the surfaces that the contact grid resolves.
     Waves,
-    /// Internal step that resolves the shortest wave of the surfaces.
+    /// Height of the surfaces that internal steps pass over.
     Sampling,
     /// Blow that a corner of the track gives to the wheel.
     Track,
@@ -105,6 +105,9 @@ const RESOLVED_PHASE: f64 = 0.2;
 /// `a²/R` \[1]. Estimated: with it, steps of up to 25 µs are indefinite in `railway_dry`, where those of 20 µs chatter
 /// and those of 50 µs do not.
 const TREAD_SHIFT: f64 = 1.5;
+/// Height that internal steps pass over, over the approach of the bodies under the nominal load, which is the error of the
+/// force over the load, beyond which a run is told of it \[1].
+const MISSED: f64 = 0.01;
 /// Blow of a corner of `rail.elevation`, over the nominal load, beyond which a run is told of it \[1].
 const CORNER: f64 = 5e-3;
 /// Residual of the energy balance beyond which a run is told of it \[1].
@@ -160,11 +163,7 @@ impl Simulation {
             Limit::StickSlip => (self.unresolved_phase(), AtMost(RESOLVED_PHASE)),
             Limit::Chatter => (self.state().clock.last_step, AtLeast(self.indefinite_step())),
             Limit::Waves => (self.shortest_wave(), AtLeast(FEWEST_PER_WAVE * self.model().rolling.spacing)),
-            Limit::Sampling => {
-                let mean = self.latest_way() / outputs.internal_steps.max(1) as f64;
-                let way = mean.max(self.speed() * self.state().clock.last_step);
-                (way, AtMost(self.shortest_wave() / FEWEST_PER_WAVE))
-            }
+            Limit::Sampling => (self.missed_height(), AtMost(MISSED * self.nominal_approach())),
             Limit::Track => (self.blow_of_the_track(), AtMost(CORNER * nominal)),
             Limit::Energy => (outputs.energy_residual.abs(), AtMost(UNBALANCED)),
             Limit::Effort => (outputs.internal_steps as f64, AtMost(MANY_STEPS)),
@@ -215,6 +214,40 @@ impl Simulation {
         self.latest_ways().into_iter().fold(0.0, |longest, way| way.abs().max(longest))
     }
 
+    /// Ways in an internal step \[m]: the mean of the last communication step, and the last one.
+    fn strides(&self) -> [f64; 2] {
+        let last = self.speed() * self.state().clock.last_step;
+        [self.latest_way() / self.outputs().internal_steps.max(1) as f64, last]
+    }
+
+    /// Height of the surfaces that internal steps pass over \[m]; zero where they resolve the shortest wave, or the patch,
+    /// which evens out shorter ones.
+    fn missed_height(&self) -> f64 {
+        let (rolling, patch) = (&self.model().rolling, nominal_half_width(self.model().config()));
+        let seen = self.shortest_wave().max(2.0 * patch) / FEWEST_PER_WAVE;
+        let (all, ways, end) = (self.latest_way(), self.latest_ways(), self.state().place(rolling.wheel.radius));
+        let [mean, last] = self.strides();
+        let of_stride = |(stride, way): (f64, f64)| {
+            let share = if all > 0.0 { (way / all).min(1.0) } else { 0.0 };
+            let begin = |body: usize| end[body] - share * ways[body];
+            let places = [0, 1].map(|body| [begin(body).min(end[body]), begin(body).max(end[body])]);
+            if stride > seen { rolling.contact.surfaces.missed(places, stride, patch) } else { 0.0 }
+        };
+        [(mean, all), (last, last)].into_iter().map(of_stride).fold(0.0, f64::max)
+    }
+
+    /// Approach of the bodies under the nominal load, were they rigid but for the contact \[m].
+    fn nominal_approach(&self) -> f64 {
+        libm::pow(nominal_half_width(self.model().config()), 2.0) / (2.0 * self.model().config().wheel.radius)
+    }
+
+    /// Whether more energy is missing than goes with a load that has moved up and down by `rise` \[m]: where vibrations are
+    /// damped, a part of that is missing for a while, and comes back, and the force hardly feels it.
+    pub fn loses_energy(&self, rise: f64) -> bool {
+        let config = self.model().config();
+        !config.damping.modal || self.missing_energy().0 > UNBALANCED * config.model.nominal_load * rise
+    }
+
     /// Largest error of the force over a sharp hole of a `length` \[m] by the grid, over the load \[1].
     fn error_over_a_hole(&self, length: f64) -> f64 {
         let config = self.model().config();
@@ -245,10 +278,27 @@ impl Simulation {
     }
 
     /// Phase by which the torsion of the wheel turns in an internal step \[rad], where it may grow: in a sliding
-    /// contact whose friction falls with the slip.
+    /// contact whose friction falls with the slip by more than the damping of the wheel takes.
     fn unresolved_phase(&self) -> f64 {
-        let falls = FrictionLaw::from(self.tuning()).slip.falls();
-        if falls && self.slides() { self.model().rolling.torsion * self.state().clock.last_step } else { 0.0 }
+        let frequency = self.model().rolling.torsion.frequency;
+        if self.excites_torsion() { frequency * self.state().clock.last_step } else { 0.0 }
+    }
+
+    /// Whether friction that falls by `−μ′` with the slip feeds more into the torsion of the wheel than its damping takes:
+    /// `P |μ′| > 2 ζ ω m`, after `1 + (ω L/s)²` times less with a memory of the length `L` at the slip `s`.
+    fn excites_torsion(&self) -> bool {
+        let (law, config, slip) = (FrictionLaw::from(self.tuning()), self.model().config(), self.slip());
+        if !self.slides() {
+            return false;
+        }
+        let torsion = self.model().rolling.torsion;
+        let late = torsion.frequency * law.memory_length / slip;
+        let fall = law.fall(self.state().available_friction, slip) / (1.0 + late * late);
+        let damping = &config.damping;
+        let rayleigh = damping.rayleigh_mass + damping.rayleigh_stiffness * torsion.frequency * torsion.frequency;
+        let modal = if damping.modal { 2.0 * damping.wheel_torsion * torsion.frequency } else { 0.0 };
+        let mass = config.material.density * torsion.rim_area * config.width();
+        fall * self.outputs().contact_force_y > (modal + rayleigh) * mass
     }
 
     /// Mean slip velocity of the tread [m/s].

@@ -6,6 +6,10 @@ use crate::config::Config;
 use crate::piecewise::Piecewise;
 use std::path::Path;
 
+/// Places at which a surface is read within a step, or a half-width of the contact, and at most in all \[1].
+const PLACES_PER_LENGTH: f64 = 4.0;
+const MOST_PLACES: f64 = 2048.0;
+
 /// Parameter that describes no surface.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{parameter}: {source}")]
@@ -110,6 +114,25 @@ impl Surfaces {
             profile.shortest_wavelength_between(low, high).min(jump)
         };
         shortest(&self.wheel, positions[0]).min(shortest(&self.rail, positions[1]))
+    }
+
+    /// Height \[m] that steps of a length `stride` \[m] miss between two places each \[m] of wheel and rail: that of the
+    /// surfaces, evened out over a contact of the half-width `patch` \[m], off straight lines from step to step.
+    pub fn missed(&self, places: [[f64; 2]; 2], stride: f64, patch: f64) -> f64 {
+        let of_profile = |profile: &Profile, [low, high]: [f64; 2]| {
+            let spacing =
+                (stride.min(patch) / PLACES_PER_LENGTH).max((high - low + stride + 2.0 * patch) / MOST_PLACES);
+            let [half, even] = [0.5 * stride, patch].map(|length| (length / spacing).round().max(1.0) as usize);
+            let count = ((high - low) / spacing).ceil() as usize + 2 * (half + even) + 1;
+            let place = |k: usize| low + (k as f64 - (half + even) as f64) * spacing;
+            let mut sums = vec![0.0];
+            (0..count).for_each(|k| sums.push(sums[k] + profile.height(place(k))));
+            let mean = |k: usize| (sums[k + even + 1] - sums[k - even]) / (2 * even + 1) as f64;
+            let off = |k: usize| (mean(k) - 0.5 * (mean(k - half) + mean(k + half))).abs();
+            (half + even..count - half - even).map(off).fold(0.0, f64::max)
+        };
+        let profiles = [&self.wheel, &self.rail].into_iter().zip(places).filter(|(profile, _)| !profile.is_smooth());
+        profiles.map(|(profile, places)| of_profile(profile, places)).sum()
     }
 
     /// Present profile of the wheel with what `flattening` has taken off it: positions around the tread and heights

@@ -37,8 +37,14 @@ pub(super) struct Notices {
     limits: Vec<Limit>,
     /// Subjects, with the variable that each is about.
     subjects: Vec<(Subject, Reference)>,
+    /// Inputs that had a value of usual size: their unit is known, and a small value is meant.
+    sized: Vec<Reference>,
+    /// Inputs that acted, each with its last value then: one that another control leaves as it was is no mistake.
+    acted: Vec<(Reference, f64)>,
     /// Least and largest distance at which the wheel has been \[m].
     way: [f64; 2],
+    /// Least and largest height at which the hub has been \[m].
+    heights: Option<[f64; 2]>,
 }
 
 impl Notices {
@@ -82,17 +88,28 @@ impl Notices {
                 continue;
             };
             let follows = *field(&mut { base }.drive) == value || start_value(row) == Some(Value::Real(value));
-            if let Some(why) = idle(row.name, inputs, config)
+            let idle = idle(row.name, inputs, config);
+            if idle.is_none() {
+                self.acted.retain(|(known, _)| known != reference);
+                self.acted.push((*reference, value));
+            }
+            let doubt = wrong_unit(row, &Value::Real(value), config);
+            if doubt.is_none() && value != 0.0 && !self.sized.contains(reference) {
+                self.sized.push(*reference);
+            }
+            if let Some(why) = idle
                 && !follows
+                && !self.acted.contains(&(*reference, value))
                 && !is_reaction(row, value, simulation.outputs(), inputs)
             {
                 let text = format!("{} = {} has no effect: {why}", row.name, shown(row, &Value::Real(value)));
                 self.once(Subject::Idle, row, life.time(), &text, life.log());
-            } else if cold(row.name, row.kind, value).is_some() || *field(&mut held) == value {
+            } else if let Some(text) = doubt
                 // A ramp passes small values; what is held is meant.
-                if let Some(text) = wrong_unit(row, &Value::Real(value), config) {
-                    self.once(Subject::Unit, row, life.time(), &text, life.log());
-                }
+                && (cold(row.name, row.kind, value).is_some()
+                    || *field(&mut held) == value && !self.sized.contains(reference))
+            {
+                self.once(Subject::Unit, row, life.time(), &text, life.log());
             }
         }
     }
@@ -131,7 +148,13 @@ impl Notices {
     pub fn of_limits(&mut self, simulation: &Simulation, time: f64, log: &Log) {
         let at = simulation.outputs().wheel_distance;
         self.way = [self.way[0].min(at), self.way[1].max(at)];
-        let new: Vec<_> = simulation.exceeded_limits().filter(|limit| !self.limits.contains(limit)).collect();
+        let height = simulation.outputs().hub_height;
+        let [lowest, highest] = self.heights.map_or([height; 2], |[low, high]| [low.min(height), high.max(height)]);
+        self.heights = Some([lowest, highest]);
+        let is_new = |limit: &Limit| {
+            !self.limits.contains(limit) && (*limit != Limit::Energy || simulation.loses_energy(highest - lowest))
+        };
+        let new: Vec<_> = simulation.exceeded_limits().filter(is_new).collect();
         for limit in new {
             self.limits.push(limit);
             log.report(Status::Warning, &format!("t = {:?} s: {}", written(time), simulation.describe_limit(limit)));

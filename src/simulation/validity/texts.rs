@@ -31,7 +31,7 @@ impl Simulation {
             Limit::StickSlip => stick_slip(self, value, bound),
             Limit::Chatter => chatter(self, value, bound),
             Limit::Waves => waves(self, value, bound),
-            Limit::Sampling => sampling(value, bound),
+            Limit::Sampling => sampling(self, value),
             Limit::Track => track(value, bound),
             Limit::Energy => energy(self, value),
             Limit::Effort => effort(self, value),
@@ -151,8 +151,8 @@ fn stick_slip(simulation: &Simulation, value: f64, bound: f64) -> String {
         "friction falls with the slip of a sliding wheel, and the phase of its torsional vibration of {:.0} rad/s \
          advances by {value:.2} rad in an internal step, more than {bound:.1}: the time formula damps stick-slip that \
          may arise; lower solver.max_step to {:.1e} s to see it",
-        simulation.model().rolling.torsion,
-        0.9 * bound / simulation.model().rolling.torsion
+        simulation.model().rolling.torsion.frequency,
+        0.9 * bound / simulation.model().rolling.torsion.frequency
     )
 }
 
@@ -178,13 +178,17 @@ fn waves(simulation: &Simulation, value: f64, bound: f64) -> String {
     )
 }
 
-fn sampling(value: f64, bound: f64) -> String {
+fn sampling(simulation: &Simulation, value: f64) -> String {
+    let [mean, last] = simulation.strides();
+    let share = value / simulation.nominal_approach();
+    let off =
+        if share < 1.0 { format!("by up to {:.0} % of the load", 1e2 * share) } else { "by the load and more".into() };
     format!(
         "the wheel travels {:.2} mm in an internal step, more than a quarter, {:.2} mm, of the shortest wave of \
-         wheel.profile and rail.profile here: forces are inexact; lower solver.max_step, or set it to 0, so that \
-         the profile determines it",
-        1e3 * value,
-        1e3 * bound
+         wheel.profile and rail.profile here, and passes over their height: forces are inexact {off}; lower solver.max_step, \
+         or set it to 0, so that the profile determines it",
+        1e3 * mean.max(last),
+        1e3 * simulation.shortest_wave() / FEWEST_PER_WAVE
     )
 }
 
