@@ -128,8 +128,8 @@ def switched(mutations, root):
     for start, end, number, mutation in sorted(places, key=lambda place: place[:2], reverse=True):
         text = texts.get(mutation.file, sources[mutation.file])
         before, _, line = text[:start].rpartition("\n")
-        # A constant within a function may be a variable as well.
-        line = re.sub(r"^( +)const ", r"\1let ", line)
+        # A constant within a function may be a variable as well; places before it stay where they are.
+        line = re.sub(r"^( +)const ", r"\1let   ", line)
         if "const " in line:
             raise Unfit(f"{mutation.name}: {line.strip()} is a constant; mark a place where it is used")
         value = text[start:end]

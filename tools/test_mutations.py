@@ -105,7 +105,7 @@ class Mutations(unittest.TestCase):
             self.assertEqual((code, said.count("caught ")), (0, 3), said)
             self.assertIn(f"3 coefficients times {factor}: 3 caught; not: none", said)
             self.assertIn("crate::wrong_by(0) * (7850.0)", copied["src/steel.rs"])
-            self.assertIn("let MELTS: f64 = (crate::wrong_by(1) * (1700.0));", copied["src/steel.rs"])
+            self.assertIn("let   MELTS: f64 = (crate::wrong_by(1) * (1700.0));", copied["src/steel.rs"])
             self.assertEqual(copied["steel.json"], '{"friction": 0.3}\n')
 
     def test_a_test_that_passes_all_the_same_is_named_and_is_a_failure(self):
@@ -153,6 +153,16 @@ class Mutations(unittest.TestCase):
             self.assertEqual(code, 1 if words else 0, said)
             self.assertIn(words or "3 coefficients stand in the source", said)
         self.assertIn("no coefficient has lead in its name", self.outcome("lead")[1])
+
+    def test_all_values_of_a_table_in_one_line_are_switched_where_they_stand(self):
+        with tempfile.TemporaryDirectory() as name:
+            (Path(name) / "src").mkdir()
+            (Path(name) / "src/lib.rs").write_text("")
+            (Path(name) / "src/steel.rs").write_text("fn share() {\n    const SHARE: [f64; 2] = [1.0, 0.5];\n}\n")
+            texts = ("= [«1.0», 0.5]", "= [1.0, «0.5»]")
+            table = [mutations.Mutation(text, "src/steel.rs", text, "steel::test") for text in texts]
+            found = mutations.switched(table, Path(name))["src/steel.rs"]
+        self.assertIn("    let   SHARE: [f64; 2] = [(crate::wrong_by(0) * (1.0)), (crate::wrong_by(1) * (0.5))];\n", found)
 
     def test_vibration_modes_of_wrong_bodies_are_neither_those_of_right_ones_nor_kept(self):
         with tempfile.TemporaryDirectory() as name:
