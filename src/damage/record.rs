@@ -174,7 +174,7 @@ impl Records {
         most
     }
 
-    /// What counts after a rest: highest temperatures so far, and martensite.
+    /// Part of the records that counts after a rest: highest temperatures so far, and martensite.
     pub(super) fn at_rest(&self) -> Self {
         let kept = |history: &PointHistory| PointHistory { martensite: history.martensite, ..PointHistory::default() };
         let histories = self.histories.iter().map(|histories| match histories.iter().any(|h| h.martensite > 0.0) {
