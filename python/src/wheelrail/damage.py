@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 from argparse import Namespace
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 KELVIN = 273.15
 # Weight percent of a wheel steel within ER7 (EN 13262 allows 0.52 C), ASSUMED: that of the default of damage.martensite_start.
 STEEL = {"C": 0.50, "Mn": 0.75, "Cr": 0.25, "Si": 0.35, "Ni": 0.0}
+BAR = "{desc}: {postfix} [{elapsed}]"
 BASE = 260.0  # HV of the wheel as it was: judgement, for 820 to 940 MPa of tensile strength
 OUTPUTS = (
     "damage.peak_temperature", "damage.hottest_point", "damage.flats", "damage.hot_places", "wheel.flat_length", "wheel.flat_depth",
@@ -151,16 +153,28 @@ def hardness(martensite: np.ndarray, cooling_rate: float, steel: Mapping[str, fl
     return share * quenched + (1.0 - share) * base
 
 
-def settle(wheel: Wheel, *, step: float = 5e-3, longest: float = 120.0) -> float:
+def settle(wheel: Wheel, *, step: float = 5e-3, longest: float = 120.0, progress: bool = True) -> float:
     """Steps a wheel on, by `step` [s], until no place of its tread is hot; returns the seconds that took.
 
-    Inputs stay as they are: release the brake before. Records of the wheel go on, and take a sample at the end. Raises `TimeoutError` after `longest` [s].
+    Inputs stay as they are: release the brake before. Records of the wheel go on, and take a sample at the end. Heat that sinks into
+    the wheel does not depend on how exactly every strike of a flat is resolved: until the end `solver.tolerance` is 0, so that contact
+    forces on flats are inexact. The bar of the `progress` shows on a terminal only. Raises `TimeoutError` after `longest` [s].
     """
-    begin = wheel.time
-    while wheel.get("damage.hot_places"):
-        if wheel.time - begin > longest:
-            raise TimeoutError(f"{wheel.get('damage.hot_places')} places of the tread are still hot after {longest:g} s")
-        wheel.step(step)
+    from tqdm import tqdm
+
+    begin, tolerance = wheel.time, wheel.get("solver.tolerance")
+    wheel.set({"solver.tolerance": 0.0})
+    try:
+        with tqdm(desc="cooling", bar_format=BAR, disable=None if progress else True) as bar:
+            while hot := wheel.get("damage.hot_places"):
+                if wheel.time - begin > longest:
+                    raise TimeoutError(f"{hot} places of the tread are still hot after {longest:g} s")
+                wheel.step(step)
+                bar.set_postfix_str(f"{wheel.time - begin:.2f} s rolled, {hot} places hot", refresh=False)
+                bar.update()
+    finally:
+        with suppress(Exception):  # a wheel that has failed or is closed takes nothing
+            wheel.set({"solver.tolerance": tolerance})
     wheel.sample()
     return wheel.time - begin
 
