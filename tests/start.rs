@@ -388,3 +388,39 @@ fn derivatives_at_a_quasi_steady_start_are_exact() {
         }
     }
 }
+
+/// Railway wheels on every shape that start at a `height` \[m] above the place where they touch.
+fn above(name: &str, height: f64) -> (Simulation, Inputs) {
+    let mut config = preset(name, 6);
+    (config.initial.velocity, config.thermal.enabled) = (20.0, false);
+    let mut inputs = Inputs::rolling(&config);
+    (inputs.vertical, inputs.drive.displacement) = (Vertical::Displacement, height);
+    let simulation = Simulation::new(model(config), &inputs);
+    (simulation.unwrap_or_else(|error| panic!("{name}, {height} m: {error}")), inputs)
+}
+
+#[test]
+fn a_wheel_that_starts_in_the_air_flies_and_lands_on_every_shape() {
+    for name in ["railway", "railway_ellipse", "railway_s1002_0mm", "railway_s1002_3mm"] {
+        // Turning makes the wheel grow by less than a micrometre.
+        for height in [3e-4, 1e-5, -1e-6, -1e-5] {
+            let (mut simulation, mut inputs) = above(name, height);
+            let touches = |simulation: &Simulation| simulation.outputs().contact_force_y > 0.0;
+            println!("{name}, {height} m: {:.1} N", simulation.outputs().contact_force_y);
+            assert!(touches(&simulation) == (height < 0.0), "{name}, {height} m");
+            if height < 1e-4 {
+                continue;
+            }
+            for _ in 0..3 {
+                simulation.advance(&inputs, 1e-3).unwrap();
+            }
+            assert!(!touches(&simulation));
+            inputs.vertical = Vertical::Force;
+            let landed = (0..60).any(|_| {
+                simulation.advance(&inputs, 1e-3).unwrap();
+                touches(&simulation)
+            });
+            assert!(landed, "{name}");
+        }
+    }
+}

@@ -6,13 +6,14 @@
 //! by their moments with the powers of t. So all coefficients are the same under any load.
 //! Derivation: `docs/theory/lines.md`, section 5.
 
+use super::kernel::Logarithm;
 use super::projection::MomentProjection;
 pub use super::projection::{Between, ByMoments, ByPowers};
 use crate::linalg::POINTS;
 use crate::patch::tiles::{Tile, TileInfluence};
-use std::f64::consts::PI;
+use std::f64::consts::{LN_2, PI};
 
-/// Length beyond the ends of a line, over its half-length, on which the effect of the patch fades out \[1].
+/// Length beyond the ends of a line, over its half-length, on which the past on points fades out \[1].
 const FADING: f64 = 0.5;
 
 /// Offset of a strip from the middle over its width beyond which it has a mirror image \[1].
@@ -41,6 +42,8 @@ pub struct PatchFlexibility {
     lines: usize,
     /// By displaced line, then by line of the force.
     pairs: Vec<Between>,
+    /// Logarithms that are left to the lines.
+    left: Vec<Left>,
     /// Tables across; `None`: forces and displacements have no lateral part.
     lateral: Option<LateralTables>,
 }
@@ -50,8 +53,19 @@ pub struct PatchFlexibility {
 struct LateralTables {
     /// Displacements across by forces across.
     across: Vec<Between>,
+    /// Logarithms that are left to the lines.
+    left: Vec<Left>,
     /// Displacements across by forces along, and along by forces across.
     askew: Vec<Between>,
+}
+
+/// Logarithm of both bodies that the tables leave to a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Left {
+    /// Its factor \[m²/N].
+    factor: f64,
+    /// Logarithm of its reach over the half-length of the line \[1].
+    reach: f64,
 }
 
 /// A line as part of a patch that displaces it.
@@ -63,6 +77,9 @@ pub struct InPatch<'a> {
     pub line: usize,
     /// Half-length of the line in the layout \[m].
     pub half_length: f64,
+    /// Logarithms of the reaches of its own displacement along and across over 1 m \[1]. Where they are not those that the
+    /// tables leave to it, the difference is a displacement by the patch.
+    pub reaches: [f64; 2],
 }
 
 impl HalfSpace {
@@ -73,24 +90,33 @@ impl HalfSpace {
 }
 
 impl PatchFlexibility {
-    /// That of half-spaces under lines on `tiles`; with `mirrored` those beside the middle stand for a symmetric pair. Besides, for every line the logarithm of the distance over 1
-    /// m at which a force of its own no longer displaces it by more than the mean over all lines.
-    pub fn new(tiles: &[Tile], mirrored: bool, material: HalfSpace) -> (Self, Vec<f64>) {
+    /// That of half-spaces under lines on `tiles`; with `mirrored` those beside the middle stand for a symmetric pair.
+    pub fn new(tiles: &[Tile], mirrored: bool, material: HalfSpace) -> Self {
         let (factor, nu) = (material.factor(), material.poissons_ratio);
         let beside = |tile: &Tile| mirrored && tile.edges[0] + tile.edges[1] > LEAST_OFFSET * tile.width();
         let mut pairs = table(tiles, factor, &beside, |at, of, x| at.displaced_by(of, x, nu));
-        let reaches = take_reaches(&mut pairs, tiles.len(), 2.0 * (1.0 - nu) * factor);
-        (Self { lines: tiles.len(), pairs, lateral: None }, reaches)
+        let left = leave(&mut pairs, tiles, 2.0 * (1.0 - nu) * factor);
+        Self { lines: tiles.len(), pairs, left, lateral: None }
     }
 
-    /// With forces and displacements across of the lines of [`Self::new`] on `tiles` that are not mirrored; and the
-    /// logarithms for those.
-    pub fn sideways(self, tiles: &[Tile], material: HalfSpace) -> (Self, Vec<f64>) {
+    /// With forces and displacements across of the lines of [`Self::new`] on `tiles` that are not mirrored.
+    pub fn sideways(self, tiles: &[Tile], material: HalfSpace) -> Self {
         let (factor, nu) = (material.factor(), material.poissons_ratio);
         let mut across = table(tiles, factor, &|_| false, |at, of, x| at.displaced_across_by(of, x, nu));
         let askew = table(tiles, factor, &|_| false, |at, of, x| at.displaced_askew_by(of, x, nu));
-        let reaches = take_reaches(&mut across, tiles.len(), 2.0 * factor);
-        (Self { lateral: Some(LateralTables { across, askew }), ..self }, reaches)
+        let left = leave(&mut across, tiles, 2.0 * factor);
+        Self { lateral: Some(LateralTables { across, left, askew }), ..self }
+    }
+
+    /// Logarithm for the displacement of each body that is left to a line of the given half-length \[m], along (0) or
+    /// across (1); none across without a lateral part.
+    pub fn own(&self, line: usize, direction: usize, half_length: f64) -> Logarithm {
+        let own = |left: &Left| Logarithm { factor: 0.5 * left.factor, reach: left.reach + libm::log(half_length) };
+        self.left(line, direction).map_or_else(Logarithm::default, own)
+    }
+
+    fn left(&self, line: usize, direction: usize) -> Option<&Left> {
+        if direction == 0 { self.left.get(line) } else { self.lateral.as_ref()?.left.get(line) }
     }
 
     /// Sums over the forces of all lines with the given moments along and across [N/m], by line, on the line `at`: along
@@ -162,16 +188,30 @@ pub fn values<const N: usize>(polynomial: &ByPowers, x: &[f64; N], length: f64) 
     sums
 }
 
-/// Powers of the place t. Beyond the ends of the line those at the ends fade out: polynomials grow there without bound,
-/// and would push a longer patch up by its own forces.
-pub fn powers(t: f64) -> ByPowers {
+/// Powers of the place t of a line, and beyond its ends the displacements there of a plane body by forces on the line that
+/// cause the powers on it; `depth` is `ln(2L/a)` of the reach L of the plane body and the half-length a.
+///
+/// Forces beyond the ends are felt likewise. By Betti's theorem they then add to the moments what the same forces on the
+/// line would, whose energy is the least: a flexibility that is positive on the line is positive on every patch shorter
+/// than 4L. Forces `T_n(t)/√(1 − t²)` displace the line by `T_n(t)/n`, and places t = cosh ξ beyond by `e^{−nξ}/n`; for
+/// n = 0 by `depth` and `depth − ξ`.
+pub fn powers(t: f64, depth: f64) -> ByPowers {
+    let size = t.abs();
+    if size <= 1.0 {
+        return [1.0, t, t * t, t * t * t, t * t * t * t];
+    }
+    let fall = 1.0 / (size + (size * size - 1.0).sqrt());
+    let (square, odd, even) = (fall * fall, t.signum() * fall, 1.0 + libm::log(fall) / depth);
+    let fourth = 0.125 * (3.0 * even + square * (4.0 + square));
+    [even, odd, 0.5 * (even + square), 0.25 * odd * (3.0 + square), fourth]
+}
+
+/// Powers of the place t, of which those at the ends of the line fade out beyond it without a kink: displacements of
+/// earlier times on points are carried on by them.
+pub fn faded(t: f64) -> ByPowers {
     let beyond = ((t.abs() - 1.0) / FADING).clamp(0.0, 1.0);
-    let (mut power, t) = (1.0 - beyond * beyond * (3.0 - 2.0 * beyond), t.clamp(-1.0, 1.0));
-    std::array::from_fn(|_| {
-        let now = power;
-        power *= t;
-        now
-    })
+    let (share, t) = (1.0 - beyond * beyond * (3.0 - 2.0 * beyond), t.clamp(-1.0, 1.0));
+    powers(t, 1.0).map(|power| share * power)
 }
 
 /// Value of a polynomial, given the powers of the place.
@@ -210,19 +250,44 @@ impl InPatch<'_> {
     /// Field of the forces of all lines with the given moments on this one.
     pub fn field<'a>(&self, moments: impl Iterator<Item = &'a ByPowers> + Clone) -> Field {
         let sum = |of: fn(&Between) -> &ByMoments| self.flexibility.sum(self.line, moments.clone(), of);
-        Field { displacement: sum(|by| &by.displacement), strain: sum(|by| &by.strain) }
+        let mut field = Field { displacement: sum(|by| &by.displacement), strain: sum(|by| &by.strain) };
+        let own = moments.clone().nth(self.line).map_or(0.0, |moments| moments[0]);
+        field.displacement[0] += self.by_reach(0) * own;
+        field
     }
 
     /// Fields along and across of the forces of all lines with the given moments along and across on this one.
     pub fn fields<'a>(&self, moments: impl Iterator<Item = [&'a ByPowers; 2]> + Clone) -> [Field; 2] {
         let sums = |of: fn(&Between) -> &ByMoments| self.flexibility.sums(self.line, moments.clone(), of);
         let (displacement, strain) = (sums(|by| &by.displacement), sums(|by| &by.strain));
-        [0, 1].map(|k| Field { displacement: displacement[k], strain: strain[k] })
+        let mut fields = [0, 1].map(|k| Field { displacement: displacement[k], strain: strain[k] });
+        let own = moments.clone().nth(self.line).map_or([0.0; 2], |moments| moments.map(|moments| moments[0]));
+        (0..2).for_each(|k| fields[k].displacement[0] += self.by_reach(k) * own[k]);
+        fields
+    }
+
+    /// Effect of the own forces along (0) or across (1) in this direction; `None`: there is none.
+    pub fn own(&self, direction: usize) -> Option<Between> {
+        let mut own = match direction {
+            0 => *self.flexibility.between(self.line, self.line),
+            _ => *self.flexibility.across(self.line, self.line)?[0],
+        };
+        own.displacement[0][0] += self.by_reach(direction);
+        Some(own)
+    }
+
+    /// Displacement by a unit of the own force along (0) or across (1) for which the line itself gives way too much, as it
+    /// reaches farther than the tables leave to it [m²/N].
+    fn by_reach(&self, direction: usize) -> f64 {
+        let left = self.flexibility.left(self.line, direction);
+        left.map_or(0.0, |left| left.factor * (left.reach + libm::log(self.half_length) - self.reaches[direction]))
     }
 
     /// Powers of a place on the line, see [`powers`].
     pub fn powers(&self, x: f64) -> ByPowers {
-        powers(x / self.half_length)
+        let t = x / self.half_length;
+        let depth = || LN_2 + (self.reaches[0] - libm::log(self.half_length)).max(0.0);
+        powers(t, if t.abs() > 1.0 { depth() } else { 1.0 })
     }
 }
 
@@ -251,16 +316,18 @@ fn table(
     pairs
 }
 
-/// Leaves the mean displacement of every line to its own logarithm, whose factor is `logarithm` \[m²/N]: a constant
-/// displacement may belong to that as well. Returns the logarithms of the distances at which they end over 1 m.
-fn take_reaches(pairs: &mut [Between], count: usize, logarithm: f64) -> Vec<f64> {
-    let reaches = (0..count).map(|line| {
-        let reach = pairs[line * count..][..count].iter().map(|pair| mean(&pair.displacement)).sum::<f64>() / logarithm;
-        pairs[line * (count + 1)].displacement[0][0] -= logarithm * reach;
-        pairs[line * (count + 1)].growth[0][0] += 0.5 * logarithm * reach;
-        reach
+/// Leaves the mean displacement of every line to its own logarithm, whose factor is `factor` \[m²/N]: a constant
+/// displacement may belong to that as well. So it ends where a force of the line no longer displaces it by more than the
+/// mean over all lines.
+fn leave(pairs: &mut [Between], tiles: &[Tile], factor: f64) -> Vec<Left> {
+    let count = tiles.len();
+    let left = tiles.iter().enumerate().map(|(line, tile)| {
+        let reach = pairs[line * count..][..count].iter().map(|pair| mean(&pair.displacement)).sum::<f64>() / factor;
+        pairs[line * (count + 1)].displacement[0][0] -= factor * reach;
+        pairs[line * (count + 1)].growth[0][0] += 0.5 * factor * reach;
+        Left { factor, reach: reach - libm::log(tile.half_length) }
     });
-    reaches.collect()
+    left.collect()
 }
 
 /// Makes tables of two lines that displace each other, which stand for the given widths, obey Betti's theorem to
@@ -314,7 +381,7 @@ mod tests {
     fn works_of_two_lines_on_each_other_are_the_same_and_a_load_moves_along_without_work() {
         let tiles = strips(1e-3);
         for mirrored in [false, true] {
-            let (patch, _) = PatchFlexibility::new(&tiles, mirrored, STEEL);
+            let patch = PatchFlexibility::new(&tiles, mirrored, STEEL);
             let width = |k: usize| tiles[k].width() * if mirrored { 2.0 } else { 1.0 };
             let forces = [[1.0, 0.3, -0.2, 0.5, 0.1], [0.4, -1.0, 0.7, 0.2, -0.3], [2.0, 0.1, 0.1, -0.6, 0.8]];
             let work = |k: usize, field: &ByPowers| -> f64 { forces[k].iter().zip(field).map(|(f, c)| f * c).sum() };
@@ -336,7 +403,7 @@ mod tests {
     #[test]
     fn works_along_and_across_of_two_lines_on_each_other_are_the_same() {
         let tiles = strips(1e-3);
-        let (patch, reaches) = PatchFlexibility::new(&tiles, false, STEEL).0.sideways(&tiles, STEEL);
+        let patch = PatchFlexibility::new(&tiles, false, STEEL).sideways(&tiles, STEEL);
         let forces = [
             [[1.0, 0.3, -0.2, 0.5, 0.1], [0.2, -0.7, 0.4, 0.1, 0.9]],
             [[0.4, -1.0, 0.7, 0.2, -0.3], [-0.5, 0.3, 0.8, -0.6, 0.2]],
@@ -357,12 +424,12 @@ mod tests {
                 moved += work(k, j, |by| &by.strain) / tile.half_length;
             }
         }
-        assert!(moved.abs() < 1e-23 && reaches.iter().all(|reach| reach.is_finite()), "{moved:e}");
+        assert!(moved.abs() < 1e-23, "{moved:e}");
     }
 
     #[test]
     fn tables_are_the_same_for_patches_of_every_size() {
-        let [(small, reaches), (large, others)] = [1e-3, 2e-3].map(|s| PatchFlexibility::new(&strips(s), true, STEEL));
+        let [small, large] = [1e-3, 2e-3].map(|s| PatchFlexibility::new(&strips(s), true, STEEL));
         for (a, b) in small.pairs.iter().zip(&large.pairs) {
             for (a, b) in [(a.displacement, b.displacement), (a.strain, b.strain), (a.growth, b.growth)] {
                 // Angles near the ends of lines are half as exact as places.
@@ -370,7 +437,7 @@ mod tests {
                 assert!(a.as_flattened().iter().zip(b.as_flattened()).all(same));
             }
         }
-        assert!(reaches.iter().zip(others).all(|(a, b)| (a + 2.0_f64.ln() - b).abs() < 1e-9));
+        assert!(small.left.iter().zip(&large.left).all(|(a, b)| (a.reach - b.reach).abs() < 1e-9));
     }
 
     /// Displacement of a wide strip in its middle, far from its sides: that of the plane, in which only the distance at
@@ -378,12 +445,39 @@ mod tests {
     #[test]
     fn a_wide_strip_is_displaced_as_the_plane() {
         let tile = Tile { edges: [-1.0, 1.0], half_length: 1e-3 };
-        let (patch, reaches) = PatchFlexibility::new(&[tile], false, STEEL);
+        let patch = PatchFlexibility::new(&[tile], false, STEEL);
         let rest = field(patch.between(0, 0), &[1.0, 0.0, 0.0, 0.0, 0.0]);
         let logarithm = 2.0 * (1.0 - STEEL.poissons_ratio) * STEEL.factor();
         // `asinh(w/|x|) − (1 − 2ν)/(1 − ν)` for a width w = 2.
         let reach = 4.0_f64.ln() - (1.0 - 2.0 * STEEL.poissons_ratio) / (1.0 - STEEL.poissons_ratio);
-        assert!((reaches[0] - reach).abs() < 1e-3);
+        assert!((patch.own(0, 0, tile.half_length).reach - reach).abs() < 1e-3);
         assert!(rest.displacement.iter().all(|c| c.abs() < 1e-3 * logarithm), "{rest:?}");
+    }
+
+    /// Chebyshev's polynomials in each power, and the integral of the logarithm over the angles of forces.
+    #[test]
+    fn powers_go_on_beyond_a_line_as_the_displacement_of_a_plane_body_by_what_causes_them_on_it() {
+        let in_chebyshev: [&[f64]; POINTS] =
+            [&[1.0], &[0.0, 1.0], &[0.5, 0.0, 0.5], &[0.0, 0.75, 0.0, 0.25], &[0.375, 0.0, 0.5, 0.0, 0.125]];
+        let (count, depth) = (1000, 1.3);
+        for t in [0.4, 1.01, -1.3, 4.0, -9.0_f64] {
+            let of_power = |k: usize| -> f64 {
+                let displaced = |angle: f64| {
+                    let forces = in_chebyshev[k].iter().enumerate().map(|(n, share)| {
+                        let by_force = if n == 0 { depth } else { 1.0 / n as f64 };
+                        share / by_force * (n as f64 * angle).cos()
+                    });
+                    forces.sum::<f64>() * (depth - LN_2 - (t - angle.cos()).abs().ln())
+                };
+                (0..count).map(|i| displaced(PI * (f64::from(i) + 0.5) / f64::from(count))).sum::<f64>()
+                    / f64::from(count)
+            };
+            for (k, found) in powers(t, depth).into_iter().enumerate() {
+                let expected = of_power(k);
+                // The logarithm is less smooth on the line.
+                let close = if t.abs() < 1.0 { 0.02 } else { 1e-6 };
+                assert!((found - expected).abs() < close, "{k} at {t}: {found} {expected}");
+            }
+        }
     }
 }

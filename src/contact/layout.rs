@@ -1,6 +1,6 @@
 //! Lines side by side that stand for a patch under a load.
 
-use super::flexibility::{HalfSpace, PatchFlexibility};
+use super::flexibility::{HalfSpace, InPatch, PatchFlexibility};
 use super::kernel::{LineKernel, Logarithm};
 use crate::analytic::HalfPlane;
 use crate::patch::gauss::{self, GaussLine};
@@ -16,6 +16,10 @@ const LEAST: f64 = 1e-3;
 
 /// Length of lines that stay over that under their load on which they feel each other's tangential forces \[1].
 const ROOM: f64 = 1.5;
+
+/// Least distance at which a line's own tangential displacement ends, over that of the outermost node from the middle \[1]:
+/// a logarithm is positive on patches shorter than four times that, by the kernel of nodes 4.48 times.
+const REACH: f64 = 0.5;
 
 /// A line as part of a patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -74,12 +78,11 @@ pub struct PatchLayout {
     radius: f64,
     /// Width of the bodies \[m].
     width: f64,
-    /// Tangential flexibility of every line under it, as far as it is a logarithm.
-    tangential: Vec<Logarithm>,
-    /// Lateral flexibility of the same kind; empty where lines have no lateral forces.
-    across: Vec<Logarithm>,
-    /// Smooth rest of it, under the forces of all lines.
+    /// Tangential flexibility under the forces of all lines.
     flexibility: Arc<PatchFlexibility>,
+    /// Least distance \[m] at which a line's own tangential displacement ends, from which on it is the same for all lines;
+    /// `None`: that which the flexibility of all leaves to each.
+    least_reach: Option<f64>,
     /// Lengths of the lines on which they do, over those under the load of the description \[1].
     room: f64,
     half_space: HalfSpace,
@@ -142,8 +145,8 @@ impl PatchLayout {
         };
         let patches = || rows::patches(&rows).zip(shapes);
         let coupling = |shape: &EquivalentEllipse| material.half_plane.coupling * shape.b / (shape.a + shape.b);
-        let PatchMaterial { half_plane: HalfPlane { kernel: factor, .. }, half_space } = material;
-        let (flexibility, reaches) = PatchFlexibility::new(&tiles(&rows, symmetric, 1.0), symmetric, half_space);
+        let half_space = material.half_space;
+        let flexibility = PatchFlexibility::new(&tiles(&rows, symmetric, 1.0), symmetric, half_space);
         Self {
             gaps: rows.iter().map(|row| row.gap).collect(),
             symmetric,
@@ -153,9 +156,8 @@ impl PatchLayout {
             lateral: 0.5 * rows.iter().map(|row| row.width).sum::<f64>(),
             radius,
             width,
-            tangential: reaches.into_iter().map(|reach| Logarithm { factor, reach }).collect(),
-            across: Vec::new(),
             flexibility: Arc::new(flexibility),
+            least_reach: None,
             room: 1.0,
             half_space,
             couplings: patches().flat_map(|(rows, shape)| std::iter::repeat_n(coupling(shape), rows.len())).collect(),
@@ -166,10 +168,15 @@ impl PatchLayout {
     /// With room on its lines for patches that are longer than under the load of the description, as those on surfaces
     /// with profiles are.
     pub fn with_room(self) -> Self {
-        let (rows, symmetric) = (&self.rows, self.symmetric);
-        let (flexibility, reaches) = PatchFlexibility::new(&tiles(rows, symmetric, ROOM), symmetric, self.half_space);
-        let tangential = self.tangential.iter().zip(reaches).map(|(along, reach)| Logarithm { reach, ..*along });
-        Self { tangential: tangential.collect(), flexibility: Arc::new(flexibility), room: ROOM, ..self }
+        let tiles = tiles(&self.rows, self.symmetric, ROOM);
+        let flexibility = Arc::new(PatchFlexibility::new(&tiles, self.symmetric, self.half_space));
+        Self { flexibility, room: ROOM, ..self }
+    }
+
+    /// On nodes that end at the distance `end` \[m] from the middle: contact may be that long, whatever the layout. Lines
+    /// reach so far that none is pushed by its own tangential forces.
+    pub fn on_nodes(self, end: f64) -> Self {
+        Self { least_reach: Some(REACH * end), ..self }
     }
 
     /// With lateral forces: every line stands for itself.
@@ -185,17 +192,11 @@ impl PatchLayout {
         let rows: Vec<_> = lower.chain(upper.iter().copied()).collect();
         let images = self.couplings.iter().skip(usize::from(middle)).rev().filter(|_| symmetric);
         let tiles = tiles(&rows, false, self.room);
-        let (along, reaches) = PatchFlexibility::new(&tiles, false, self.half_space);
-        let (flexibility, across) = along.sideways(&tiles, self.half_space);
-        let kernel =
-            |factor: f64, reaches: Vec<f64>| reaches.into_iter().map(|reach| Logarithm { factor, reach }).collect();
-        let (factor, nu) = (self.half_space.factor(), self.half_space.poissons_ratio);
+        let flexibility = PatchFlexibility::new(&tiles, false, self.half_space).sideways(&tiles, self.half_space);
         Self {
             gaps: rows.iter().map(|row| row.gap).collect(),
             couplings: images.chain(&self.couplings).copied().collect(),
             symmetric: false,
-            tangential: kernel((1.0 - nu) * factor, reaches),
-            across: kernel(factor, across),
             flexibility: Arc::new(flexibility),
             rows,
             ..self
@@ -275,7 +276,7 @@ impl PatchLayout {
         let approach = scale * scale * self.approach;
         let factor = half_length * half_length / (4.0 * self.radius * line_load);
         // `dδ/dP = 2κ ln(2L/a)`, `δ = κP (2 ln(2L/a) + 1)`.
-        let along = self.tangential[i];
+        let [tangential, lateral] = self.own(i, scale);
         let (pressing, logarithm) = (factor * line_load, 0.5 / (factor * stiffness));
         LineLayout {
             ordinate: position / (scale * self.lateral),
@@ -284,16 +285,33 @@ impl PatchLayout {
             half_length: self.room * half_length,
             gap: approach - pressing * (2.0 * logarithm + 1.0),
             kernel: LineKernel {
-                tangential: Logarithm { reach: along.reach + libm::log(scale), ..along },
+                tangential,
                 normal: Logarithm { factor, reach: libm::log(0.5 * half_length) + logarithm },
-                lateral: self.across.get(i).map_or_else(Logarithm::default, |across| Logarithm {
-                    reach: across.reach + libm::log(scale),
-                    ..*across
-                }),
+                lateral,
                 coupling: self.couplings[i],
             },
             energy: line_load * (0.4 * approach - pressing * (logarithm + 0.25)),
         }
+    }
+
+    /// Tangential and lateral flexibility that a line has for itself.
+    fn own(&self, line: usize, scale: f64) -> [Logarithm; 2] {
+        let left = |line: usize| {
+            let half_length = scale * self.room * self.rows[line].half_length;
+            [0, 1].map(|direction| self.flexibility.own(line, direction, half_length))
+        };
+        let Some(least) = self.least_reach else { return left(line) };
+        let all = (0..self.len()).flat_map(left).filter(|own| own.factor > 0.0);
+        let reach = all.map(|own| own.reach).fold(libm::log(least), f64::max);
+        left(line).map(|own| Logarithm { reach: if own.factor > 0.0 { reach } else { own.reach }, ..own })
+    }
+}
+
+impl LineLayout {
+    /// The line as that with the number `line` of a patch with this flexibility.
+    pub fn in_patch<'a>(&self, flexibility: &'a PatchFlexibility, line: usize) -> InPatch<'a> {
+        let LineKernel { tangential, lateral, .. } = self.kernel;
+        InPatch { flexibility, line, half_length: self.half_length, reaches: [tangential.reach, lateral.reach] }
     }
 }
 

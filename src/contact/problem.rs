@@ -219,13 +219,13 @@ impl LineProblem<'_> {
 
     /// This line in another layout, of which the gap is the change from the present one.
     pub fn laid_out(&self, layout: &LineLayout) -> Self {
-        let LineLayout { share, position, kernel, half_length, gap, .. } = *layout;
+        let LineLayout { share, position, kernel, gap, .. } = *layout;
         let placement = Placement { elevation: self.placement.elevation - gap, ..self.placement };
         Self {
             share,
             position,
             kernel,
-            patch: self.patch.map(|patch| InPatch { half_length, ..patch }),
+            patch: self.patch.map(|patch| layout.in_patch(patch.flexibility, patch.line)),
             placement,
             ..*self
         }

@@ -12,9 +12,8 @@ use crate::axes::{Axis, PerAxis};
 use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, InPatch,
-    LayoutsOfLoad, LineLayout, LineProblem, Ports, RetardedSurface, RigidMotion, Spin, SteelLimits, SurfaceResponse,
-    Traction,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, LayoutsOfLoad,
+    LineLayout, LineProblem, Ports, RetardedSurface, RigidMotion, Spin, SteelLimits, SurfaceResponse, Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
@@ -86,7 +85,7 @@ impl ContactModel {
         reach: f64,
     ) -> Result<Self, RowsError> {
         Ok(Self {
-            patch: PatchLines::new(config, surfaces.is_smooth())?,
+            patch: PatchLines::new(config, surfaces.is_smooth(), reach)?,
             surfaces,
             solver,
             nominal_load: config.model.nominal_load,
@@ -236,11 +235,7 @@ impl ContactModel {
             position: layout.position,
             kernel: layout.kernel,
             layer: self.layer,
-            patch: self.patch.flexibility(start.contact.ports).map(|flexibility| InPatch {
-                flexibility,
-                line: number,
-                half_length: layout.half_length,
-            }),
+            patch: self.patch.flexibility(start.contact.ports).map(|patch| layout.in_patch(patch, number)),
             bodies: surface_response(step),
             membrane: [&membrane_force[0], &membrane_force[1]],
             time: step.time,

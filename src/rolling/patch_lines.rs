@@ -50,10 +50,10 @@ enum Layouts {
     Constant(Vec<LineLayout>, Option<Arc<PatchFlexibility>>),
     /// Those of a patch whose size follows from its load.
     Sized {
-        /// The patch.
+        /// The patch on points.
         patch: Box<PatchLayout>,
-        /// Patch on fixed nodes, where soft steel makes it longer than that of the layout; `None`: it does not.
-        roomy: Option<Box<PatchLayout>>,
+        /// The patch on fixed nodes, where it may be longer than that of the layout.
+        on_nodes: Box<PatchLayout>,
     },
 }
 
@@ -69,11 +69,12 @@ fn longest_patch(config: &Config) -> f64 {
 
 impl PatchLines {
     /// Those of a configuration. On surfaces that are not `smooth`, whose patch is as long as their profile makes it, lines
-    /// keep the layout of the nominal load: what the contact stores is then a function of its state.
+    /// keep the layout of the nominal load: what the contact stores is then a function of its state. The outermost node
+    /// lies at the distance `end` \[m] from the middle.
     ///
     /// # Errors
     /// Rows without meaning, and a file of rows that has not been read.
-    pub fn new(config: &Config, smooth: bool) -> Result<Self, RowsError> {
+    pub fn new(config: &Config, smooth: bool, end: f64) -> Result<Self, RowsError> {
         let steel = Isotropic::from(&config.material);
         let half_space =
             HalfSpace { shear_modulus: steel.shear_modulus(), poissons_ratio: config.material.poissons_ratio };
@@ -88,16 +89,17 @@ impl PatchLines {
             (_, None) => PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load),
         };
         let lateral = |patch: PatchLayout| if config.contact.lateral { patch.sideways() } else { patch };
-        let roomy = || lateral(patch.clone().with_room());
-        let patch = if smooth { lateral(patch.clone()) } else { roomy() };
+        // Soft steel under lateral forces makes patches longer than that of the layout, too.
+        let roomy = !smooth || config.contact.lateral && config.physics.yielding;
+        let on_nodes = lateral(if roomy { patch.clone().with_room() } else { patch.clone() }).on_nodes(end);
         let (count, symmetric, centre, gaps) =
-            (patch.len(), patch.is_symmetric(), patch.centre(), patch.gaps().to_vec());
+            (on_nodes.len(), on_nodes.is_symmetric(), on_nodes.centre(), on_nodes.gaps().to_vec());
         let layouts = match smooth {
-            true => Layouts::Sized {
-                roomy: (config.contact.lateral && config.physics.yielding).then(|| Box::new(roomy())),
-                patch: Box::new(patch),
-            },
-            false => Layouts::Constant(patch.staying(load, longest_patch(config)), Some(patch.flexibility().clone())),
+            true => Layouts::Sized { patch: Box::new(lateral(patch)), on_nodes: Box::new(on_nodes) },
+            false => {
+                let flexibility = Some(on_nodes.flexibility().clone());
+                Layouts::Constant(on_nodes.staying(load, longest_patch(config)), flexibility)
+            }
         };
         Ok(Self { layouts, count, symmetric, centre, gaps })
     }
@@ -119,10 +121,10 @@ impl PatchLines {
 
     /// Patch on given ports whose size follows from its load.
     fn sized(&self, ports: Ports) -> Option<&PatchLayout> {
-        let Layouts::Sized { patch, roomy } = &self.layouts else { return None };
+        let Layouts::Sized { patch, on_nodes } = &self.layouts else { return None };
         match ports {
             Ports::Smooth => Some(patch),
-            Ports::Narrow | Ports::Wide => Some(roomy.as_ref().unwrap_or(patch)),
+            Ports::Narrow | Ports::Wide => Some(on_nodes),
         }
     }
 
@@ -170,6 +172,82 @@ impl PatchLines {
         match &self.layouts {
             Layouts::Constant(layouts, _) => lines.iter().map(|line| line.layout).eq(layouts.iter().copied()),
             Layouts::Sized { .. } => lines.len() == self.count && lines.iter().all(sound),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::presets;
+    use crate::contact::line::kernel::logarithms;
+    use nalgebra::{Cholesky, DMatrix};
+
+    /// Place of the outermost node \[m].
+    const END: f64 = 0.04;
+
+    /// The ellipse of a railway wheel, or rows from a file.
+    fn patch(rows: Option<&str>) -> Config {
+        let mut config = presets::parse(include_str!("../../resources/railway_ellipse.json")).unwrap();
+        if let Some(rows) = rows {
+            (config.contact.shape, config.contact.rows) = (ContactShape::Rows, rows.to_owned());
+        }
+        config
+    }
+
+    /// True if the flexibility of all lines along, and across if they are sideways, is positive under a `load` \[N] with
+    /// contact all over a `chord` \[m].
+    fn is_positive(patch: &PatchLines, load: f64, chord: f64) -> bool {
+        let (ports, spacing) = (Ports::Wide, if chord > END { 1e-3 } else { 0.7e-3 });
+        let places: Vec<_> = (0..=(chord / spacing) as usize).map(|i| i as f64 * spacing - 0.5 * chord).collect();
+        let mut lines = vec![Line::default(); patch.count];
+        patch.lay_out(load, ports, &mut lines);
+        let (alone, flexibility) = (logarithms(&places, spacing), patch.flexibility(ports).unwrap());
+        let in_patch: Vec<_> = lines.iter().enumerate().map(|(k, line)| line.layout.in_patch(flexibility, k)).collect();
+        let powers: Vec<_> = in_patch.iter().flat_map(|line| places.iter().map(|x| line.powers(*x))).collect();
+        let (nodes, directions) = (powers.len(), if flexibility.is_sideways() { 2 } else { 1 });
+        let entry = |a: usize, b: usize| {
+            let ([to, of], [a, b]) = ([a / nodes, b / nodes], [a % nodes, b % nodes]);
+            let ([at, by], [i, j]) = ([a / places.len(), b / places.len()], [a % places.len(), b % places.len()]);
+            let kernel = lines[at].layout.kernel.along(2 * to);
+            let own = if (at, to) == (by, of) { 2.0 * kernel.displacement(alone[(i, j)]) } else { 0.0 };
+            let between = match (to == of, at == by) {
+                (true, true) => in_patch[at].own(to).unwrap(),
+                (true, false) if to == 0 => *flexibility.between(at, by),
+                _ => *flexibility.across(at, by).unwrap()[usize::from(to != of)],
+            };
+            let product =
+                |polynomial: &[f64; 5]| polynomial.iter().zip(&powers[a]).map(|(c, power)| c * power).sum::<f64>();
+            let by_moments = between.displacement.iter().zip(&powers[b]).map(|(by, moment)| moment * product(by));
+            lines[at].layout.share * (own + by_moments.sum::<f64>())
+        };
+        let matrix = DMatrix::from_fn(directions * nodes, directions * nodes, entry);
+        assert!((&matrix - matrix.transpose()).amax() < 1e-9 * matrix.amax(), "Betti");
+        Cholesky::new(matrix).is_some()
+    }
+
+    #[test]
+    fn lines_give_way_to_every_tangential_force_on_every_chord_that_nodes_have_room_for() {
+        let rows = [
+            None,
+            Some(include_str!("../../resources/s1002_uic60_0mm.csv")),
+            Some(include_str!("../../resources/s1002_uic60_3mm.csv")),
+        ];
+        for (shape, rows) in ["ellipse", "0 mm", "3 mm"].into_iter().zip(rows) {
+            for (count, lateral) in [(3, false), (7, false), (13, false), (5, true)] {
+                let mut config = patch(rows);
+                (config.contact.lines, config.contact.lateral) = (count, lateral);
+                let chords = if count == 7 { vec![0.02, 0.04, 0.078] } else { vec![0.04] };
+                let loads = [(true, 1.0), (true, 0.1), (false, 1.0)];
+                for ((smooth, share), chord) in
+                    loads.into_iter().flat_map(|load| chords.iter().map(move |chord| (load, *chord)))
+                {
+                    let patch = PatchLines::new(&config, smooth, END).unwrap();
+                    let positive = is_positive(&patch, share * config.model.nominal_load, chord);
+                    println!("{shape}, {count} lines, smooth {smooth}, {share} of the load, {chord} m: {positive}");
+                    assert!(positive);
+                }
+            }
         }
     }
 }

@@ -46,10 +46,10 @@ fn ordinary_steps_are_solved_by_alternation() {
 
 #[test]
 fn ordinary_steps_of_an_ellipse_are_solved_line_by_line() {
-    for profile in ["", "roughness(spectrum = EN_ISO_3095)"] {
+    for (profile, most) in [("", 300), ("roughness(spectrum = EN_ISO_3095)", 500)] {
         let [one_by_one, together] = solved(ContactShape::Ellipse, profile, -7000.0);
         println!("{profile}: {one_by_one} line by line, {together} together");
-        assert!(together == 0 && (200..700).contains(&one_by_one), "{profile}: {one_by_one}, {together}");
+        assert!(together == 0 && (200..most).contains(&one_by_one), "{profile}: {one_by_one}, {together}");
     }
 }
 

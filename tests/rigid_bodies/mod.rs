@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, InPatch, Influence,
+    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
     LineLayout, LineProblem, PatchFlexibility, RigidMotion, Spin, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
@@ -102,7 +102,7 @@ impl RigidBodies {
             position: layout.position,
             kernel: layout.kernel,
             layer: 0.0,
-            patch: flexibility.map(|flexibility| InPatch { flexibility, line, half_length: layout.half_length }),
+            patch: flexibility.map(|flexibility| layout.in_patch(flexibility, line)),
             bodies: self.response(logarithms),
             membrane: [&flat, &flat],
             time,

@@ -9,8 +9,10 @@ change; the report says so, and `settle` rolls a wheel on until nothing does any
 from __future__ import annotations
 
 import json
+import sys
 from argparse import Namespace
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
 KELVIN = 273.15
 # Weight percent of a wheel steel within ER7 (EN 13262 allows 0.52 C), ASSUMED: that of the default of damage.martensite_start.
 STEEL = {"C": 0.50, "Mn": 0.75, "Cr": 0.25, "Si": 0.35, "Ni": 0.0}
+BAR = "{desc}: {postfix} [{elapsed}]"
 BASE = 260.0  # HV of the wheel as it was: judgement, for 820 to 940 MPa of tensile strength
 OUTPUTS = (
     "damage.peak_temperature", "damage.hottest_point", "damage.flats", "damage.hot_places", "wheel.flat_length", "wheel.flat_depth",
@@ -167,16 +170,23 @@ def _parameter(run: xarray.Dataset, name: str, default: float) -> float:
     return float(json.loads(run.attrs.get("parameters", "{}")).get(name, default))
 
 
-def settle(wheel: Wheel, *, step: float = 5e-3, longest: float = 120.0) -> float:
+def settle(wheel: Wheel, *, step: float = 5e-3, longest: float = 120.0, progress: bool = True) -> float:
     """Steps a wheel on, by `step` [s], until no place of its tread is hot; returns the seconds that took.
 
-    Inputs stay as they are: release the brake before. Records of the wheel go on, and take a sample at the end. Raises `TimeoutError` after `longest` [s].
+    Inputs stay as they are: release the brake before. Records of the wheel go on, and take a sample at the end. The bar of the
+    `progress` shows on a terminal only. Raises `TimeoutError` after `longest` [s].
     """
+    from .progress import Bar, is_terminal
+
     begin = wheel.time
-    while wheel.get("damage.hot_places"):
-        if wheel.time - begin > longest:
-            raise TimeoutError(f"{wheel.get('damage.hot_places')} places of the tread are still hot after {longest:g} s")
-        wheel.step(step)
+    with Bar(desc="cooling", bar_format=BAR) if progress and is_terminal(sys.stderr) else nullcontext() as bar:
+        while hot := wheel.get("damage.hot_places"):
+            if wheel.time - begin > longest:
+                raise TimeoutError(f"{hot} places of the tread are still hot after {longest:g} s")
+            wheel.step(step)
+            if bar:
+                bar.set_postfix_str(f"{wheel.time - begin:.2f} s rolled, {hot} places hot", refresh=False)
+                bar.update()
     wheel.sample()
     return wheel.time - begin
 

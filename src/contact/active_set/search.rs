@@ -108,6 +108,8 @@ impl<'a> ActiveSet<'a> {
             together.map(|((line, start), buffers)| ContactLine::new(grid, line, start, buffers)).collect();
         lines.iter_mut().for_each(|line| line.traction.rigid = problem.rigid.map(|motion| motion.start()));
         exchange::forces(&mut lines);
+        // Lever arms of the start: without what the lines' own flexibility adds to them moments would not balance at once.
+        lines.iter_mut().for_each(ContactLine::lift);
         memory.rows.resize_with(lines.len(), Vec::new);
         memory.rows.iter_mut().for_each(|row| row.resize(grid.ports(), 0.0));
         let penalties = lines.iter().map(states::penalty).collect();
@@ -129,10 +131,26 @@ impl<'a> ActiveSet<'a> {
             line.take_surface_angle();
             line.frame.rim_angle = line.predicted_angle();
         }
+        self.open_apart()?;
         let iterations = self.find_states(laws)?;
         self.lines.iter_mut().for_each(|line| line.traction.iterations = iterations);
         self.lines.iter().try_for_each(zone::check)?;
         self.lines.iter_mut().for_each(finish::finish);
+        Ok(())
+    }
+
+    /// Opens all nodes of a stationary contact whose surfaces are apart under the given motions: from nodes that hold them
+    /// together the search would open one after the other.
+    fn open_apart(&mut self) -> Result<(), ContactError> {
+        if self.axes.sought().next().is_some() || !self.lines.iter().all(|line| line.problem.time.is_stationary()) {
+            return Ok(());
+        }
+        let begun: Vec<_> = self.lines.iter().map(|line| line.state.status.clone()).collect();
+        self.lines.iter_mut().for_each(|line| line.state.status.fill(NodeStatus::Open));
+        self.solve_linear()?;
+        if self.lines.iter().any(|line| line.state.gap.iter().any(|gap| *gap < 0.0)) {
+            self.lines.iter_mut().zip(begun).for_each(|(line, status)| line.state.status = status);
+        }
         Ok(())
     }
 

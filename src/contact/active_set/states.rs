@@ -178,12 +178,13 @@ pub(super) fn support(lines: &mut [ContactLine]) -> bool {
 }
 
 /// True if the stuck nodes carry far more than friction allows, as happens when sliding starts from stick: normal
-/// forces and gaps then mean nothing yet.
+/// forces and gaps then mean nothing yet. A line that is pulled as a whole leaves the other surface, whatever its shear.
 fn is_overloaded(line: &ContactLine) -> bool {
     let nodes = 0..line.grid.len();
-    let limit: f64 = nodes.clone().map(|i| line.normal(i).max(0.0)).sum::<f64>() * line.traction.friction.coefficient;
-    let stuck = nodes.filter(|&i| line.state.status[i].is_stuck()).map(|i| line.tangential(i).abs());
-    stuck.sum::<f64>() > OVERLOAD * limit && line.traction.friction.coefficient > 0.0
+    let sum = |least: f64| nodes.clone().map(|i| line.normal(i).max(least)).sum::<f64>();
+    let limit = sum(0.0) * line.traction.friction.coefficient;
+    let stuck = nodes.clone().filter(|&i| line.state.status[i].is_stuck()).map(|i| line.tangential(i).abs());
+    stuck.sum::<f64>() > OVERLOAD * limit && line.traction.friction.coefficient > 0.0 && sum(f64::NEG_INFINITY) > 0.0
 }
 
 /// True if the stuck nodes do not slip, round-off apart: their rows are linearised in V and Ω. In short steps of slow

@@ -49,7 +49,7 @@ impl ContactLine<'_> {
     /// no patch.
     pub fn slip_by_moments(&self, by: usize) -> Option<ByMoments> {
         let patch = self.problem.patch?;
-        let between = patch.flexibility.between(patch.line, by);
+        let between = if by == patch.line { patch.own(0)? } else { *patch.flexibility.between(patch.line, by) };
         let speeds = [self.problem.time.a0, self.traction.rigid.travel + self.rim_velocity()];
         Some(between.slips(slip_of_field(speeds, patch.half_length)))
     }

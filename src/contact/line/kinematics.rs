@@ -128,7 +128,7 @@ impl ContactLine<'_> {
     }
 
     /// Takes the height that the flexibility of the line alone lacks in lever arms, see [`LineIterate::lift`].
-    fn lift(&mut self) {
+    pub fn lift(&mut self) {
         let (grid, problem, load) = (self.grid, self.problem, self.load_of_all());
         let LineIterate { lift, displaced: [normal, displaced], .. } = &mut *self.iterate;
         lift.clear();

@@ -3,7 +3,7 @@
 use super::chebyshev::{Arch, effect_of_both};
 use super::points::{COUNT, Directions};
 use crate::axes::PerAxis;
-use crate::contact::flexibility::{ByPowers, at, powers, values};
+use crate::contact::flexibility::{ByPowers, at, faded, values};
 use crate::contact::kernel::{LineKernel, Logarithm};
 use crate::linalg::{Lagrange, POINTS};
 use crate::multistep::TimeDerivative;
@@ -113,7 +113,7 @@ impl SeriesPast {
     fn field_at<const N: usize>(&self, field: &ByPowers, x: &[f64; N]) -> [f64; N] {
         match x.iter().all(|x| x.abs() <= self.half_length) {
             true => values(field, x, self.half_length),
-            false => x.map(|x| at(field, &powers(x / self.half_length))),
+            false => x.map(|x| at(field, &faded(x / self.half_length))),
         }
     }
 

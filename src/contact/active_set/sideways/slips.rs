@@ -82,8 +82,8 @@ fn slips_across(line: &ContactLine, nodes: &[usize], i: usize, mut give: impl Fn
     let (rate, speed) = (line.problem.time.a0, line.traction.rigid.travel + line.rim_velocity());
     let (node, to_right) = (line.grid.port(i) / 2, line.upstream_right());
     let stencil = line.stencil(i, line.iterate.upwind.row(i), to_right);
-    let own = line.problem.patch.and_then(|patch| Some((patch, patch.flexibility.across(patch.line, patch.line)?)));
-    let of_moments = own.map(|(patch, [across, _])| {
+    let own = line.problem.patch.and_then(|patch| Some((patch, patch.own(1)?)));
+    let of_moments = own.map(|(patch, across)| {
         let ([by_displacement, by_strain], here) =
             (slip_of_field([rate, speed], patch.half_length), patch.powers(line.grid.x[i]));
         let of_moment =
