@@ -53,7 +53,7 @@ def run(program):
     )  # fmt: skip
     name = Path(program["command"][0]).name.rsplit("-", 1)[0]
     # Without what tests said that have passed.
-    said, code = re.sub(r"\nsuccesses:\n.*(?=\n(?:failures|test result):)", "", done.stdout, flags=re.DOTALL), done.returncode
+    said, code = re.sub(r"\nsuccesses:\n.*?(?=\n(?:failures|test result):)", "", done.stdout, flags=re.DOTALL), done.returncode
     try:
         figures.keep(done.stdout, "unit tests" if name == "wheelrail" else name)
     except ValueError as error:
