@@ -181,7 +181,7 @@ with Fmu(PACKED) as fmu:
                 while True:
                     wheel.step(1e-3)
             except KeyboardInterrupt:
-                within += wheel._moves
+                within += bool(wheel._moves)
             alarm.join()
             assert abs(wheel.time - wheel.slave.reached()) < 1e-12
             reached = wheel.time

@@ -5,7 +5,7 @@ import io
 import json
 import os
 import subprocess
-from decimal import Decimal
+from decimal import Decimal, localcontext
 from fractions import Fraction
 from pathlib import Path
 
@@ -58,6 +58,24 @@ def test_steps_of_other_lengths_add_up_to_rounding():
         time, exact = after(time, step), exact + Fraction(float(step))
     assert time == pytest.approx(float(exact), rel=1e-13)
     assert after(np.float64(0.1), np.float32(0.5)) == 0.6 and after(-0.3, 0.1) == -0.2
+
+
+def test_times_do_not_depend_on_the_decimals_of_the_thread():
+    with localcontext(prec=5):
+        assert after(12345.678, 1e-3) == 12345.679
+
+
+def test_a_refused_step_leaves_time_and_record(start):
+    wheel = start(COLD)
+    recorder = wheel.record("wheel.velocity")
+    for _ in range(9):
+        wheel.step(1e-3)
+    for h in (-1.0, float("nan")):
+        with pytest.raises(wheelrail.Refused):
+            wheel.step(h)
+        assert wheel.time == 0.009
+    wheel.step(1e-3)
+    assert recorder.dataset().time.values.tolist() == [at(k, 1e-3) for k in range(11)]
 
 
 def test_a_record_has_the_times_that_are_looked_up(fmu):

@@ -15,7 +15,7 @@ from wheelrail.courses import courses_of
 from wheelrail.page import charts, sources
 from wheelrail.page.run import of_dataset
 from wheelrail.tables import BadFile
-from wheelrail.units import UnitError, converted, headed, unit_of
+from wheelrail.units import UnitError, converted, headed, in_si, unit_of
 
 pandas, xarray, pint = pytest.importorskip("pandas"), pytest.importorskip("xarray"), pytest.importorskip("pint")
 TRAIN = Path(__file__).parent.parent / "examples" / "train"
@@ -308,3 +308,21 @@ def test_stationary_rolling_takes_units(fmu):
 def test_a_number_without_a_unit_stays_as_it_is():
     values = np.array([1.0, 2.0])
     assert converted("force", values, None, "N") is values and converted("force", values, "N", "N") is values
+
+
+@pytest.mark.parametrize("kind", ["int8", "uint8", "int16", "int32", "int64"])
+def test_integers_of_any_size_are_converted(kind):
+    for unit, si, of in (("kN", "N", 1e3), ("bar", "Pa", 1e5), ("deg", "rad", math.pi / 180.0)):
+        np.testing.assert_allclose(converted("column", np.array([0, 100], kind), unit, si), [0.0, 100.0 * of], rtol=1e-15)
+    many = np.array([360_000])
+    np.testing.assert_allclose(converted("angle", many, "deg", "rad"), np.radians(many), rtol=1e-15)
+
+
+@pytest.mark.parametrize("name", ["Y/Q", "L/V", "gain/day", "contact.force_x (mean)", "contact.force_x in peak", "part, axle 2"])
+@pytest.mark.parametrize("about", [{}, {"units": "1"}])
+def test_a_quantity_that_a_person_adds_to_a_record_may_have_any_name(name, about):
+    record = xarray.Dataset({name: ("time", [1.0, 2.0], about)}, {"time": ("time", [0.0, 1.0], {"units": "s"})})
+    assert in_si(record).identical(record)
+    assert of_dataset(record).series[name].values.tolist() == [1.0, 2.0]
+    with pytest.raises(UnitError, match="foo"):
+        in_si(record.rename({name: "contact.force_x [foo]"}).map(lambda v: v.assign_attrs(units="")))

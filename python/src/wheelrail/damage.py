@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 KELVIN = 273.15
 # Weight percent of a wheel steel within ER7 (EN 13262 allows 0.52 C), ASSUMED: that of the default of damage.martensite_start.
 STEEL = {"C": 0.50, "Mn": 0.75, "Cr": 0.25, "Si": 0.35, "Ni": 0.0}
-BAR = "{desc}: {postfix} [{elapsed}]"
+BAR = "{desc} [{elapsed}{postfix}]"
 BASE = 260.0  # HV of the wheel as it was: judgement, for 820 to 940 MPa of tensile strength
 OUTPUTS = (
     "damage.peak_temperature", "damage.hottest_point", "damage.flats", "damage.hot_places", "wheel.flat_length", "wheel.flat_depth",

@@ -8,6 +8,7 @@ import os
 import re
 from collections.abc import Iterable, Mapping
 from itertools import count
+from math import isclose
 from numbers import Real
 from pathlib import Path
 from typing import Any, Self
@@ -29,6 +30,7 @@ log = logging.getLogger("wheelrail.fmu")
 LEVELS = {0: logging.INFO, 1: logging.WARNING}  # of messages by their status; others are refusals
 WARNING = 1  # status of messages about calls that worked
 AT = re.compile(r"^t = \S+ s: ")  # with which the FMU begins warnings
+ROUNDING = 1e-14  # relative difference of times that is rounding of one sum
 _numbers = count(1)
 
 
@@ -164,7 +166,7 @@ class Instance(Unique):
         for values in (parameters, inputs):
             check_names(values or {}, "Wheel")
         self.fmu, self.name = fmu, name
-        self._time, self._moves, self._begun = 0.0, False, None  # s; whether a call moves the time; begin of a step not yet recorded
+        self._time, self._moves, self._begun = 0.0, None, None  # s; where a call leads to that moves it; begin of a step not yet recorded
         self.log: list[Message] = []
         self._heard, self._said, self._recorders = 0, set(), []
         self._calls = Calls(self.log)
@@ -189,12 +191,14 @@ class Instance(Unique):
         """Present time [s], which is the FMU's, also where a call was interrupted."""
         with self._calls.lock:
             if self._moves and not self.slave.freed:
-                self._time, self._moves = self._calls(self.slave.reached), False
+                reached = self._calls(self.slave.reached)  # a sum of floats
+                known = self._time if isclose(reached, self._time, rel_tol=ROUNDING) else self._moves()
+                self.time = known if isclose(reached, known, rel_tol=ROUNDING) else reached
             return self._time
 
     @time.setter
     def time(self, time: float) -> None:
-        self._time, self._moves = time, False
+        self._time, self._moves = time, None
 
     def _begin(self):
         """Ends initialization, after which the wheel steps."""
@@ -317,9 +321,10 @@ class Instance(Unique):
     def advance(self, h: float, end: float | None = None) -> None:
         """Advances by a part of `h` seconds of a step, to the time `end` [s] if it is known; records do not count it."""
         with self._calls.lock:
-            now, self._moves = self.time, True
+            now = self.time
+            self._moves = lambda: after(now, h) if end is None else end
             self._call(self.slave.doStep, now, h)
-            self.time = after(now, h) if end is None else end
+            self.time = self._moves()
 
     def save(self) -> tuple[object, float]:
         """A handle for `restore`; free it with `forget`."""
@@ -333,7 +338,7 @@ class Instance(Unique):
             self._tell()
             for recorder in self._recorders:
                 recorder.listen()
-            self._moves = True
+            self._moves = lambda: time
             self._call(self.slave.setFMUstate, state)
             self.time = time
             for recorder in self._recorders:

@@ -7,11 +7,12 @@ added as such. The command line does the same (`src/cli/clock.rs`).
 
 from __future__ import annotations
 
-from decimal import Decimal
+from decimal import Context
 from fractions import Fraction
 from functools import lru_cache
 
 DIGITS = 17  # characters of a decimal that a person may have written; a float that is none has more
+DECIMALS = Context(prec=40)  # whatever that of the thread is
 SIMPLE = 10**6  # largest denominator of a fraction that is meant by such a float
 
 
@@ -33,5 +34,5 @@ def after(time: float, step: float) -> float:
     time, step = float(time), float(step)
     begin, length = repr(time), repr(step)
     if len(begin) <= DIGITS >= len(length):
-        return float(Decimal(begin) + Decimal(length))
+        return float(DECIMALS.add(DECIMALS.create_decimal(begin), DECIMALS.create_decimal(length)))
     return float(meant(time) + meant(step))

@@ -76,8 +76,8 @@ class Unit:
     def to_si(self, values: Any, relative: bool = False) -> Any:
         """A number, or an array of them, in SI units; a `relative` one is a difference, which knows no zero."""
         factor, offset = self.factor, 0 if relative else self.offset
-        # Whole numbers one after the other round like the number that is meant: 9 ms are .009 s.
-        return values * factor.numerator / factor.denominator + float(offset) if (factor, offset) != (1, 0) else values
+        # Whole numbers one after the other round like the number that is meant: 9 ms are .009 s. As floats they fit any array of integers.
+        return values * float(factor.numerator) / float(factor.denominator) + float(offset) if (factor, offset) != (1, 0) else values
 
 
 @cache
@@ -262,7 +262,8 @@ def in_si(record: Any) -> Any:
     variables are, whose names have dots."""
     changed = {}
     for name in record.variables:
-        array, unit = beside(record[name])
+        # Other marks behind a name are part of it, or are said by attributes: `Y/Q`, `contact.force_x (mean)`.
+        array, unit = beside(record[name] if str(name).endswith("]") else record[name].rename(None))
         values = array.values
         if values.dtype.kind in "mM" and name == "time":
             spans = values - values[:1] if values.dtype.kind == "M" else values
@@ -272,7 +273,7 @@ def in_si(record: Any) -> Any:
         try:
             known = unit_of(unit)
         except UnitError as error:
-            if "." in name or name == "time":
+            if "." in str(name) or name == "time":
                 raise UnitError(f"{name}: {error}") from None
             continue
         if values is not array.values or known.factor != 1 or known.offset:

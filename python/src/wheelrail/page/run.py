@@ -1,6 +1,7 @@
 """A run as a page shows it: quantities over time with unit and meaning, profiles over patch and depth, what was set."""
 
 import json
+import re
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,6 +12,7 @@ from ..units import UnitError, in_si, unit_of
 from ..warn import warn
 from .units import guessed
 
+OF_FMU = re.compile(r"\w+(\.\w+)+")  # names of variables of the FMU
 PLACES = ("time", "node", "depth", "line")  # dimensions of a record
 
 
@@ -141,7 +143,7 @@ def _of_one_run(dataset):
     if more:
         warn(f"not on the page, being over {' and '.join(more)} besides time: {', '.join(apart)}")
     for name in dataset.data_vars:
-        unit, expected = dataset[name].attrs.get("units", ""), guessed(name) if "." in name else ""
+        unit, expected = dataset[name].attrs.get("units", ""), guessed(name) if OF_FMU.fullmatch(str(name)) else ""
         if unit and expected and unit_of(unit).dimension() != unit_of(expected).dimension():
             raise BadFile(f"{name} is in {unit!r}: expected {expected}")
     seen = [np.isfinite(dataset[name].values) for name in drawn if dataset[name].dtype.kind == "f"]

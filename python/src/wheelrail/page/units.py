@@ -78,6 +78,7 @@ def number(value, digits=4):
 
 # Units of the FMU's variables by name, for a file beside which there is no FMU.
 GUESSES = (
+    (r".*position$", "m"), (r".*_(rate|ratio|share)$", ""),
     (r"temperature\.|.*peak_temperature$|damage\.rail_peak$|profile\.temperature", "K"),
     (r".*\.(force|load)|damage\.t_gamma$", "N"),
     (r".*(moment|torque)", "N.m"), (r"heat\.|brake\.power$", "W"), (r"energy\.", "J"), (r".*pressure|profile\.shear", "Pa"),
