@@ -83,8 +83,10 @@ impl Simulate {
                         csv.row(Some(run.time()), &columns, &table::read(&mut run.instance, &columns)?)?;
                     }
                     csv.finish()?;
-                    run.finish()?;
-                    self.tell_kept(run.time());
+                    match run.finish() {
+                        Ok(()) => self.tell_kept(run.time()),
+                        Err(other) => told(&format!("error: {other}")),
+                    }
                     return Err(failure);
                 }
             }
