@@ -15,7 +15,7 @@ def test_a_free_wheelset_hunts_at_the_frequency_of_klingel(fmu):
     expected = example.klingel(wheelset, found[-1])
     rows = example.hunting(fmu, wheelset, 2.5)
     _, frequency = example.growth(rows[:, 0], rows[:, 1])
-    print(f"{frequency:.4f} Hz, Klingel {expected:.4f} Hz")
+    print(f"figure: hunting.free [Hz] = {expected:.5f}, {frequency:.5f} ± 0.0005")
     assert frequency == pytest.approx(expected, rel=2e-3)
 
 
@@ -24,7 +24,8 @@ def test_a_wheelset_on_springs_has_frequency_and_growth_of_linear_theory(fmu):
     expected = example.mode(example.Wheelset(50.0), example.coefficients(fmu, 50.0))
     rows = example.hunting(fmu, example.Wheelset(50.0), 1.5)
     rate, frequency = example.growth(rows[:, 0], rows[:, 1])
-    print(f"{frequency:.3f} Hz and {rate:.3f} 1/s, linear {expected[1]:.3f} Hz and {expected[0]:.3f} 1/s")
+    print(f"figure: hunting.springs [Hz] = {expected[1]:.4f}, {frequency:.4f} ± 0.001")
+    print(f"figure: hunting.growth [1/s] = {expected[0]:.4f}, {rate:.4f} ± 0.01")
     assert frequency == pytest.approx(expected[1], rel=4e-3) and rate == pytest.approx(expected[0], abs=0.25)
 
 
@@ -34,7 +35,7 @@ def test_the_mirror_image_of_a_wheelset_is_its_mirror_image(fmu):
         example.hunting(fmu, example.Wheelset(75.0, y=sign * 2e-3, yaw=sign * 2e-3, contact_angle=0.1), 0.1) for sign in (1.0, -1.0)
     ]
     apart = np.abs(runs[0][:, 1:] + runs[1][:, 1:]).max(axis=0) / np.abs(runs[0][:, 1:]).max(axis=0)
-    print(f"apart by {apart} of y, yaw, force, of which {np.abs(runs[0]).max(axis=0)[1:]}")
+    print(f"figure: hunting.mirror = {apart.max():.1e} < 1e-10\napart by {apart} of y, yaw, force, of which {np.abs(runs[0]).max(axis=0)[1:]}")
     assert apart.max() < 1e-9
 
 
@@ -96,6 +97,7 @@ def test_all_terms_together_do_the_work_that_friction_takes(start, side, speed):
         found.ahead * speed, found.up * rise, found.right * wheelset.y_rate, found.clockwise * wheelset.yaw_rate, found.axle * omega,
     ])  # fmt: skip
     spin, lateral, moment_y = wheel.get("contact.spin", "contact.lateral_creepage", "contact.moment_y")
+    print(f"figure: hunting.power = {powers.sum() / -friction - 1.0:.2e}")
     print(f"powers {powers.round(1)} W, together {powers.sum():.2f} W, friction takes {friction:.2f} W; moment_y {moment_y:.1f} N m")
     assert powers.sum() == pytest.approx(-friction, rel=5e-4)
     assert spin == pytest.approx(inputs["drive.spin"] - np.sin(angle) * omega / speed, rel=3e-3)

@@ -15,6 +15,7 @@ from wheelrail import Fmu, Refused, Wheel, WheelrailWarning
 PACKED, FOLDER, TRIES = sys.argv[1], sys.argv[2], int(sys.argv[3])
 START = {"initial.velocity": 20.0, "mesh.elements_per_half_width": 6}
 warnings.simplefilter("ignore", WheelrailWarning)
+signal.signal(signal.SIGINT, signal.default_int_handler)  # also behind a shell that starts the tests in its background and ignores it
 
 def refused(call, words):
     "A call that must be refused in these words."

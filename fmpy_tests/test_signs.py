@@ -31,6 +31,8 @@ def test_force_moment_brake_load_and_slope_with_their_rates_change_momentum_and_
     gained = [size * (seen[name][-1] - seen[name][0]) for size, name in ((mass, "wheel.velocity"), (inertia, "wheel.omega"))]
     impulses = [whole(seen["hub.force_x"] + seen["contact.force_x"] - weight), whole(seen["hub.moment"] + seen["contact.moment"])]
     parts = [whole(seen[name]) for name in ("drive.force", "contact.force_x", "drive.moment", "brake.torque_actual", "contact.moment")]
+    missed = [impulse / value - 1.0 for impulse, value in zip(impulses, gained)]
+    print(f"figure: signs.momentum = {missed[0]:.2e}, {missed[1]:.2e}")
     print(f"momentum {gained} of {impulses}; parts {np.round(parts, 2)}, weight {whole(weight):.2f}")
     assert impulses == pytest.approx(gained, rel=2e-3) and all(travel * value < 0.0 for value in gained)
     # The brake opposes the rotation, whichever way the wheel turns, and takes power.

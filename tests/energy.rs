@@ -199,7 +199,7 @@ fn heat_that_swells_and_pulls_under_a_locked_wheel_is_in_the_balance() {
 #[test]
 fn an_elastic_wheel_that_has_grown_keeps_its_energy_in_braking_on_nodes_and_on_points() {
     for name in ["railway", "railway_ellipse"] {
-        for contact in [ContactMethod::Grid, ContactMethod::Auto] {
+        for (contact, on) in [(ContactMethod::Grid, "nodes"), (ContactMethod::Auto, "points")] {
             let mut config = shipped(name);
             (config.initial.velocity, config.thermal.wheel_excess) = (10.0, 400.0);
             (config.solver.contact, config.physics.yielding) = (contact, false);
@@ -209,6 +209,7 @@ fn an_elastic_wheel_that_has_grown_keeps_its_energy_in_braking_on_nodes_and_on_p
             let o = &seen[1000];
             let missing =
                 o.hub_work + o.thermal_work - o.stored_energy - o.friction_energy - o.damping_energy - o.plastic_energy;
+            figure(&format!("energy.grown.{name}.{on} [J]"), &[missing]);
             println!("{name}, {contact:?}: {missing:+.4} J of {:.1} J missing", o.friction_energy);
             assert!(missing.abs() < 0.08 && o.thermal_growth > 2e-3);
         }

@@ -163,6 +163,7 @@ fn a_slow_slide_on_yielding_steel_does_not_alternate_from_step_to_step() {
         let (seen, residual) = slow_slide(5.0, 0.0, h, [0.3, 0.15]);
         let [force, temperature] = [alternating(&seen, 0, 1.0), alternating(&seen, 1, 0.1)];
         common::figure(&format!("locked.slow.{}", (1e6 * h).round()), &[force, temperature]);
+        common::figure(&format!("locked.slow.missing.{}", (1e6 * h).round()), &[residual]);
         println!(
             "steps of {h} s: force alternates in {force:.3}, temperature in {temperature:.3} of them, audit {residual:.1e}"
         );
@@ -181,7 +182,7 @@ fn a_slow_slide_whose_film_comes_and_goes_is_the_same_in_all_communication_steps
         means
     });
     let [force, temperature] = [0, 1].map(|k| differ(means[0][k], means[1][k]));
-    println!("they differ by {force:.4}, {temperature:.4}");
+    common::figure("locked.film", &[force, temperature]);
     assert!(force < 0.04 && temperature < 0.01);
 }
 

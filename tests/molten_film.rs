@@ -55,7 +55,8 @@ fn a_wheel_that_has_melted_slides_on_like_one_that_never_did() {
     let [melted, never, lower] = [(0.3, 0.08), (0.08, 0.08), (0.3, 0.06)].map(|(dry, then)| run(dry, then));
     let last = |run: &[Outputs]| run.last().map(|o| [-o.contact_force_x, hottest(o) - 273.15]).unwrap();
     let [a, b, c] = [&melted, &never, &lower].map(|run| last(run));
-    println!("{:.1} and {:.1} N at {:.1} and {:.1} degC, on less friction {:.1} N", a[0], b[0], a[1], b[1], c[0]);
+    figure_within(0.01, "film.force [N]", &[a[0], b[0], c[0]]);
+    figure_within(0.01, "film.temperature [°C]", &[a[1], b[1]]);
     assert!(melted[79].melted > 0.0 && melted[79].molten > 0.0 && never.iter().all(|o| o.melted == 0.0));
     assert!(a.iter().zip(b).all(|(a, b)| (a / b - 1.0).abs() < 0.03));
     assert!(c[0] < 0.8 * a[0]);
@@ -72,6 +73,7 @@ fn all_friction_acts_in_every_step_that_ends_on_solid_steel() {
         let molten = seen.iter().filter(|o| o.molten > 0.0).count();
         let worst = solid.iter().map(|o| (o.contact_utilisation - 1.0).abs()).fold(0.0, f64::max);
         let film = solid.iter().map(|o| o.molten).fold(0.0, f64::max);
+        round_off("film.solid", &[worst], 1e-12);
         println!(
             "{name}: {molten} steps with a film, {} on solid steel: {worst:.1e} off, {film} under a film",
             solid.len()
@@ -109,6 +111,9 @@ fn a_locking_dry_wheel_converges_with_the_tolerance() {
     let runs = [(default, 1e-3), (2e-4, 1e-3), (2e-5, 1e-3), (default, 1e-4)];
     let found = runs.map(|(tolerance, h)| (tolerance, h, braked(tolerance, h)));
     let [_, _, (_, _, finest), _] = found;
+    let off = found.map(|(_, _, [force, highest])| [force / finest[0] - 1.0, highest / finest[1] - 1.0]);
+    figure("film.tolerance", &[off[0][0], off[1][0], off[3][0]]);
+    figure("film.tolerance.temperature", &[off.iter().map(|[_, b]| b.abs()).fold(0.0, f64::max)]);
     for (tolerance, h, [force, highest]) in found {
         let [a, b] = [force / finest[0] - 1.0, highest / finest[1] - 1.0];
         println!("tolerance {tolerance}, steps of {h} s: {force:.0} N, {highest:.0} K, {a:+.4} and {b:+.4} off");

@@ -170,6 +170,8 @@ fn steel_that_yields_where_it_sticks_bears_the_pressure_of_its_own_shear() {
             }
         }
         let o = run.0.outputs();
+        let name = format!("sheared.stuck.{elements}.{}", (1e6 * h).round());
+        common::figure(&name, &[missing(o) / o.plastic_energy]);
         println!(
             "{elements} elements, {h} s: {stuck} places yield and stick, under up to {sheared:.3} k; stick {:.2}, adhesion {:.4}, \
              half-width {:.4} mm, plastic {:.3} J, friction {:.3} J, missing {:+.2e} J",
@@ -212,8 +214,9 @@ fn work_of_yielding_under_a_wheel_that_stands_closes_the_energy_audit() {
 #[test]
 fn work_of_sheared_yielding_is_missed_by_its_bound_and_by_half_of_it_on_half_the_elements() {
     let long = [(0.0, 10), (0.1, 10), (0.3, 10), (0.3, 20)];
-    let most =
-        long.map(|(friction, elements)| missing_share(friction, 0.02, elements, 5e-4)).into_iter().fold(0.0, f64::max);
+    let long = long.map(|(friction, elements)| missing_share(friction, 0.02, elements, 5e-4));
+    let most = long.into_iter().fold(0.0, f64::max);
+    common::figure("sheared.slow", &long);
     let [coarse, fine] = [10, 20].map(|elements| missing_share(0.3, 0.02, elements, 1e-4));
     common::figure("sheared.missing", &[most, coarse, fine]);
     assert!(most < 3.5e-3 && coarse < 2.2e-3 && fine < 0.6 * coarse);

@@ -2,11 +2,9 @@
 
 mod common;
 mod half_spaces;
-#[path = "common/random.rs"]
-mod random;
 
+use common::random::Random;
 use half_spaces::{FRICTION, HalfSpaces, LOAD, Lines, SPEED, formula};
-use random::Random;
 use wheelrail::contact::{AxisDrive, ContactScratch, Friction, RigidMotion, SolverState, Spin};
 use wheelrail::multistep::TimeDerivative;
 
