@@ -243,7 +243,7 @@ impl Simulation {
         libm::pow(nominal_half_width(self.model().config()), 2.0) / (2.0 * self.model().config().wheel.radius)
     }
 
-    /// Whether more energy is missing than goes with a load that has moved up and down by `rise` \[m]: where vibrations are
+    /// Loss of more energy than goes with a load that has moved up and down by `rise` \[m]: where vibrations are
     /// damped, a part of that is missing for a while, and comes back, and the force hardly feels it. A slope of the track and a
     /// start in the air are larger than what vibrates: `MOST_RISE` bounds what counts.
     pub fn loses_energy(&self, rise: f64) -> bool {
@@ -288,7 +288,7 @@ impl Simulation {
         if self.excites_torsion() { frequency * self.state().clock.last_step } else { 0.0 }
     }
 
-    /// Whether friction that falls by `−μ′` with the slip feeds more into the torsion of the wheel than its damping takes:
+    /// Friction that falls by `−μ′` with the slip, where it feeds more into the torsion of the wheel than its damping takes:
     /// `P |μ′| > 2 ζ ω m`, after `1 + (ω L/s)²` times less with a memory of the length `L` at the slip `s`.
     fn excites_torsion(&self) -> bool {
         let (law, config, slip) = (FrictionLaw::from(self.tuning()), self.model().config(), self.slip());
