@@ -145,6 +145,11 @@ fn a_torque_that_a_slide_protection_lowers_is_not_asked_for_its_unit() {
     assert_eq!(after(8e3), [""; 0]);
     let found = after(20.0);
     assert!(found.len() == 1 && found[0].contains("brake.torque = ") && found[0].contains("kN.m"), "{found:?}");
+    // What is larger than before is asked for.
+    let found = warnings(&[], &[], 6, |slave, k| {
+        assert_eq!(slave.set_real("rail.friction", if k < 2 { 0.3 } else { 2.5 }), fmi2OK);
+    });
+    assert!(found.iter().any(|text| text.contains("rail.friction = 2.5 is a ratio")), "{found:?}");
 }
 
 /// A master that holds a locked wheel by its speed leaves the torque as it was; one that changes it then is told.

@@ -3,7 +3,7 @@
 //! Products of matrices and threads of the standard library leave memory with a destructor behind, in the thread in
 //! which they run. An operating system keeps a shared library loaded until every such thread has ended: a master that
 //! unloads the library would wait for its own main thread. So preparations, and steps that factorise matrices, run
-//! beside the thread of the master.
+//! beside the thread of the master, and so does what needs more stack than a master may have left.
 
 use crate::log::CallError;
 

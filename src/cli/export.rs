@@ -52,7 +52,7 @@ impl Export {
 
     /// Settings that the command decides, for displacement and stress of the whole bodies.
     fn fixed() -> Result<[Setting; 1], Failure> {
-        eprintln!("displacement and stress need all finite-element equations: using solver.response = full");
+        told("displacement and stress need all finite-element equations: using solver.response = full");
         Ok([Setting::new("solver.response", "full")?])
     }
 
@@ -87,7 +87,7 @@ impl Export {
         let blocks = self.grids(fields, Encoding::Text, "", when)?;
         let index = self.out.join("fields.vtm");
         vtu::write_index(&index, &comment("wheel and rail", when), &blocks)?;
-        eprintln!("{when}: {} and {} files beside it", index.display(), blocks.len());
+        told(&format!("{when}: {} and {} files beside it", index.display(), blocks.len()));
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! Models under a progress bar, with computed bases kept for the next time.
 
-use super::Failure;
+use super::{Failure, told};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::Path;
 use std::sync::Arc;
@@ -31,7 +31,7 @@ pub fn prepare(config: Config, resources: &Path, cache: &Path, bar: &ProgressBar
         error => Failure::Run(advice::failed_preparation(&error, &config)),
     })?;
     if let Some(why) = model.not_kept() {
-        bar.suspend(|| eprintln!("warning: {why}"));
+        bar.suspend(|| told(&format!("warning: {why}")));
     }
     Ok(model)
 }

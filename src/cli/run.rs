@@ -1,10 +1,10 @@
 //! A run over time: the slave, its scenario and its communication steps.
 
-use super::Failure;
 use super::clock::time_after;
 use super::scenario::{RATE, Scenario, Values};
 use super::setting::{Setting, find};
 use super::setup::{Setup, failed, wrong};
+use super::{Failure, told};
 use std::path::PathBuf;
 use wheelrail::fmi::description::{DEFAULT_STEP_SIZE, DEFAULT_STOP_TIME};
 use wheelrail::fmi::instance::Instance;
@@ -58,7 +58,7 @@ impl Run {
             return Err(Failure::Usage(format!("--stop = {stop} is outside its range: finite, at least 0 s")));
         }
         for text in scenario.iter().flat_map(|scenario| scenario.unseen(stop, step)) {
-            eprintln!("warning: {text}");
+            told(&format!("warning: {text}"));
         }
         let instance = setup.initialize(fixed, Some(stop))?;
         let steps = (stop / step - ROUNDING).ceil().max(0.0) as usize;

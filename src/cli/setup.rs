@@ -1,7 +1,7 @@
 //! From preset and settings to a slave: the arguments that all runs share.
 
 use super::setting::Setting;
-use super::{Failure, model};
+use super::{Failure, model, told};
 use std::path::{Path, PathBuf};
 use wheelrail::fmi::instance::Instance;
 use wheelrail::fmi::log::{CallError, Log, Status};
@@ -40,7 +40,7 @@ pub fn failed(refusal: CallError) -> Failure {
 /// Shows warnings on standard error; errors are returned as well.
 fn warn(status: Status, _category: &str, message: &str) {
     if status == Status::Warning {
-        eprintln!("warning: {message}");
+        told(&format!("warning: {message}"));
     }
 }
 

@@ -83,8 +83,10 @@ impl Simulate {
                         csv.row(Some(run.time()), &columns, &table::read(&mut run.instance, &columns)?)?;
                     }
                     csv.finish()?;
-                    run.finish()?;
-                    self.tell_kept(run.time());
+                    match run.finish() {
+                        Ok(()) => self.tell_kept(run.time()),
+                        Err(other) => told(&format!("error: {other}")),
+                    }
                     return Err(failure);
                 }
             }
@@ -173,7 +175,7 @@ impl Summary {
             };
             let value = value.first().map_or_else(String::new, |value| table::shown(variable, value));
             let unit = Some(table::unit(variable)).filter(|unit| *unit != "1").unwrap_or_default();
-            eprintln!("  {what:<28}{value:>11} {unit}");
+            told(&format!("  {what:<28}{value:>11} {unit}"));
             Ok(())
         };
         line("speed at the end", "wheel.velocity", None)?;
@@ -185,7 +187,7 @@ impl Summary {
         }
         line("energy residual", "solver.energy_residual", None)?;
         let factor = if wall > 0.0 { significant(simulated / wall) } else { "-".to_owned() };
-        eprintln!("  {:<28}{factor:>11} x ({simulated} s in {} s)", "real-time factor", significant(wall));
+        told(&format!("  {:<28}{factor:>11} x ({simulated} s in {} s)", "real-time factor", significant(wall)));
         Ok(())
     }
 }

@@ -214,7 +214,7 @@ outputs! {
          800 degC) of the point of these places that was longest above it; 0 until it has cooled to 500 degC";
     705 martensite_depth: real "damage.martensite_depth", in "m" as "mm", from 0.0, nominal 1e-3, start zero,
         "Largest depth of at least half martensite that there is now at these places: austenitised, cooled at damage.critical_cooling or \
-         faster, far enough below damage.martensite_start, and not austenite again";
+         faster, far enough below damage.martensite_start, and not austenite again. Places that made room for others, beyond eight, keep theirs";
     706 flats: count "damage.flats", start zero,
         "Places of the tread that the contact heated by more than damage.threshold while the wheel (nearly) stood still; places \
          that touch each other count once";

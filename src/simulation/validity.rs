@@ -112,6 +112,8 @@ const MISSED: f64 = 0.01;
 const CORNER: f64 = 5e-3;
 /// Residual of the energy balance beyond which a run is told of it \[1].
 const UNBALANCED: f64 = 0.05;
+/// Largest rise of the hub that vibrations are taken to have \[m].
+const MOST_RISE: f64 = 1e-3;
 /// Internal steps in one communication step beyond which a run is told that it takes long \[1]: with heat about half a
 /// second.
 const MANY_STEPS: f64 = 2000.0;
@@ -241,11 +243,13 @@ impl Simulation {
         libm::pow(nominal_half_width(self.model().config()), 2.0) / (2.0 * self.model().config().wheel.radius)
     }
 
-    /// Whether more energy is missing than goes with a load that has moved up and down by `rise` \[m]: where vibrations are
-    /// damped, a part of that is missing for a while, and comes back, and the force hardly feels it.
+    /// Loss of more energy than goes with a load that has moved up and down by `rise` \[m]: where vibrations are
+    /// damped, a part of that is missing for a while, and comes back, and the force hardly feels it. A slope of the track and a
+    /// start in the air are larger than what vibrates: `MOST_RISE` bounds what counts.
     pub fn loses_energy(&self, rise: f64) -> bool {
         let config = self.model().config();
-        !config.damping.modal || self.missing_energy().0 > UNBALANCED * config.model.nominal_load * rise
+        let goes_along = UNBALANCED * config.model.nominal_load * rise.min(MOST_RISE);
+        !config.damping.modal || self.missing_energy().0 > goes_along
     }
 
     /// Largest error of the force over a sharp hole of a `length` \[m] by the grid, over the load \[1].
@@ -284,7 +288,7 @@ impl Simulation {
         if self.excites_torsion() { frequency * self.state().clock.last_step } else { 0.0 }
     }
 
-    /// Whether friction that falls by `−μ′` with the slip feeds more into the torsion of the wheel than its damping takes:
+    /// Friction that falls by `−μ′` with the slip, where it feeds more into the torsion of the wheel than its damping takes:
     /// `P |μ′| > 2 ζ ω m`, after `1 + (ω L/s)²` times less with a memory of the length `L` at the slip `s`.
     fn excites_torsion(&self) -> bool {
         let (law, config, slip) = (FrictionLaw::from(self.tuning()), self.model().config(), self.slip());

@@ -9,6 +9,9 @@ use std::path::Path;
 /// Places at which a surface is read within a step, or a half-width of the contact, and at most in all \[1].
 const PLACES_PER_LENGTH: f64 = 4.0;
 const MOST_PLACES: f64 = 2048.0;
+/// Part of a step behind which its surface is compared with a straight line \[1]: the golden section, for in the middle a
+/// step of two whole waves meets the height of its ends again.
+const SECTION: f64 = 0.382;
 
 /// Parameter that describes no surface.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -122,14 +125,16 @@ impl Surfaces {
         let of_profile = |profile: &Profile, [low, high]: [f64; 2]| {
             let spacing =
                 (stride.min(patch) / PLACES_PER_LENGTH).max((high - low + stride + 2.0 * patch) / MOST_PLACES);
-            let [half, even] = [0.5 * stride, patch].map(|length| (length / spacing).round().max(1.0) as usize);
-            let count = ((high - low) / spacing).ceil() as usize + 2 * (half + even) + 1;
-            let place = |k: usize| low + (k as f64 - (half + even) as f64) * spacing;
+            let lengths = [SECTION * stride, (1.0 - SECTION) * stride, patch];
+            let [before, behind, even] = lengths.map(|length| (length / spacing).round().max(1.0) as usize);
+            let (margin, share) = (before.max(behind) + even, before as f64 / (before + behind) as f64);
+            let count = ((high - low) / spacing).ceil() as usize + 2 * margin + 1;
+            let place = |k: usize| low + (k as f64 - margin as f64) * spacing;
             let mut sums = vec![0.0];
             (0..count).for_each(|k| sums.push(sums[k] + profile.height(place(k))));
             let mean = |k: usize| (sums[k + even + 1] - sums[k - even]) / (2 * even + 1) as f64;
-            let off = |k: usize| (mean(k) - 0.5 * (mean(k - half) + mean(k + half))).abs();
-            (half + even..count - half - even).map(off).fold(0.0, f64::max)
+            let line = |k: usize| (1.0 - share) * mean(k - before) + share * mean(k + behind);
+            (margin..count - margin).map(|k| (mean(k) - line(k)).abs()).fold(0.0, f64::max)
         };
         let profiles = [&self.wheel, &self.rail].into_iter().zip(places).filter(|(profile, _)| !profile.is_smooth());
         profiles.map(|(profile, places)| of_profile(profile, places)).sum()
@@ -207,5 +212,22 @@ mod tests {
         assert!((wheel.gap(0.0, &place(0.0, 1.0, 0.0, &none)) + 1e-4).abs() < 1e-12);
         assert_eq!(wheel.gap(0.0, &place(0.0, 2.0, 0.0, &none)), 0.0);
         assert!((wheel.gap(0.01, &place(0.0, 0.98, 0.0, &none)) + 1e-4 - 0.01 * 0.01).abs() < 1e-7);
+    }
+
+    /// Waves of 0.01 mm, of which the bound of the warning is a twenty-fifth, and a ramp that steps follow.
+    #[test]
+    fn steps_of_whole_waves_miss_their_height_and_a_straight_slope_has_none() {
+        let samples = |height: &dyn Fn(f64) -> f64| {
+            let x: Vec<_> = (-1000..=2000).map(|k| 1e-3 * f64::from(k)).collect();
+            let value = x.iter().map(|x| height(*x)).collect();
+            Surfaces { rail: Profile::from_samples(Piecewise { x, value }), ..Surfaces::smooth(0.46) }
+        };
+        for wave in [0.1, 0.05, 0.1 / 3.0, 0.025] {
+            let surfaces = samples(&|x| 1e-5 * (std::f64::consts::TAU * x / wave).sin());
+            let missed = surfaces.missed([[0.0; 2], [0.0, 0.1]], 0.1, 6e-3);
+            println!("waves of {wave} m: {missed:.2e} m");
+            assert!((4e-6..2e-5).contains(&missed), "{wave}: {missed:e}");
+        }
+        assert!(samples(&|x| 1e-3 * x).missed([[0.0; 2], [0.0, 0.1]], 0.1, 6e-3) < 1e-12);
     }
 }

@@ -4,8 +4,8 @@
 //! Each function checks its pointers, copies what it is given, calls the [`Instance`](crate::Instance) behind a
 //! barrier that turns panics into `fmi2Fatal` or `fmi3Fatal`, and reports errors in one place. Enumerations and booleans
 //! arrive as C integers, whatever their value. A component that no function here has returned, or that has been freed,
-//! is refused and never followed. The floating-point environment of the master is put aside meanwhile, and the
-//! first computations of an instance, which need much stack, run beside its thread.
+//! is refused and never followed. The floating-point environment of the master is put aside meanwhile, and
+//! computations that need much stack, the first ones of an instance and derivatives, run beside its thread.
 //! [`export_fmi2!`](crate::export_fmi2) and [`export_fmi3!`](crate::export_fmi3) give the functions their symbols for one
 //! type of slave; a library may have both.
 //!

@@ -37,8 +37,8 @@ pub(super) struct Notices {
     limits: Vec<Limit>,
     /// Subjects, with the variable that each is about.
     subjects: Vec<(Subject, Reference)>,
-    /// Inputs that had a value of usual size: their unit is known, and a small value is meant.
-    sized: Vec<Reference>,
+    /// Inputs that had a value of usual size, each with the largest one: their unit is known, and a smaller value is meant.
+    sized: Vec<(Reference, f64)>,
     /// Inputs that acted, each with its last value then: one that another control leaves as it was is no mistake.
     acted: Vec<(Reference, f64)>,
     /// Least and largest distance at which the wheel has been \[m].
@@ -94,8 +94,10 @@ impl Notices {
                 self.acted.push((*reference, value));
             }
             let doubt = wrong_unit(row, &Value::Real(value), config);
-            if doubt.is_none() && value != 0.0 && !self.sized.contains(reference) {
-                self.sized.push(*reference);
+            let meant = self.sized.iter().any(|(known, size)| known == reference && value.abs() <= *size);
+            if doubt.is_none() && value != 0.0 && !meant {
+                self.sized.retain(|(known, _)| known != reference);
+                self.sized.push((*reference, value.abs()));
             }
             if let Some(why) = idle
                 && !follows
@@ -107,7 +109,7 @@ impl Notices {
             } else if let Some(text) = doubt
                 // A ramp passes small values; what is held is meant.
                 && (cold(row.name, row.kind, value).is_some()
-                    || *field(&mut held) == value && !self.sized.contains(reference))
+                    || *field(&mut held) == value && !meant)
             {
                 self.once(Subject::Unit, row, life.time(), &text, life.log());
             }

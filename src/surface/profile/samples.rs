@@ -86,8 +86,12 @@ impl HeightSamples {
     pub fn close(&mut self, period: f64) -> Result<(), String> {
         let last = self.points.x.len() - 1;
         let (x, height) = (self.points.x[0] + period, self.points.value[0]);
-        let [before, end] = [last - 1, last].map(|k| self.points.x[k]);
-        if end >= x - (ROUNDED_PERIOD * period).min(0.5 * (end - before)) && before < x {
+        let [before, end] = [last.saturating_sub(1), last].map(|k| self.points.x[k]);
+        if before >= x {
+            let x = display_number(x);
+            return Err(format!("more, or no more than one sample from {x} m on, where the next period begins"));
+        }
+        if end >= x - (ROUNDED_PERIOD * period).min(0.5 * (end - before)) {
             let [low, high] = self.range();
             let found = self.points.value[last];
             if (found - height).abs() > ROUNDED[0].max(ROUNDED[1] * (high - low)) {

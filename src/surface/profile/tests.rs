@@ -383,6 +383,10 @@ fn a_closed_profile_of_a_wheel_is_closed_whatever_the_digits_of_its_positions() 
             assert!(shortest > turn / COUNT as f64, "{digits} digits: a wave of {shortest} m at the end of the file");
         }
     }
+    // The last digit may be beyond the circumference, but not two samples.
+    let text = "position,height\n0,0\n1,1e-5\n2.8903,0\n2.8904,0\n";
+    let message = with_file("twice", text, |folder| Profile::parse("profile.csv", Some(folder), WHEEL).unwrap_err());
+    assert!(message.to_string().contains("no more than one sample from 2.89027 m on"), "{message}");
     let text = "position,height\n0,0\n1,1e-5\n2.8906,0\n";
     let message = with_file("beyond", text, |folder| Profile::parse("profile.csv", Some(folder), WHEEL).unwrap_err());
     let message = message.to_string();
