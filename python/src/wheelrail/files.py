@@ -358,6 +358,8 @@ def meant(name, known):
 
 def _entry(path, line, name, field, text, unit):
     """One entry of a CSV file, in a unit that the heading of its column may name."""
+    if unit and not isinstance(field, Real):
+        raise BadFile(f"{path}:{line}: {name} is no number: take the unit {unit!r} out of its heading")
     value = number_in(path, line, name, text) if isinstance(field, Real) else text
     try:
         value = converted(name, value, unit, getattr(field, "unit", ""), getattr(field, "relative", False))

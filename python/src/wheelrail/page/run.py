@@ -144,8 +144,11 @@ def _of_one_run(dataset):
         warn(f"not on the page, being over {' and '.join(more)} besides time: {', '.join(apart)}")
     for name in dataset.data_vars:
         unit, expected = dataset[name].attrs.get("units", ""), guessed(name) if OF_FMU.fullmatch(str(name)) else ""
-        if unit and expected and unit_of(unit).dimension() != unit_of(expected).dimension():
-            raise BadFile(f"{name} is in {unit!r}: expected {expected}")
+        try:
+            if unit and expected and unit_of(unit).dimension() != unit_of(expected).dimension():
+                raise UnitError(f"expected {expected}")
+        except UnitError as error:
+            raise BadFile(f"{name} is in {unit!r}: {error}") from None
     seen = [np.isfinite(dataset[name].values) for name in drawn if dataset[name].dtype.kind == "f"]
     return dataset.isel(time=np.any(seen, axis=0)) if seen else dataset
 
