@@ -20,16 +20,15 @@ fn directory(name: &str) -> PathBuf {
     path
 }
 
-/// Starts the binary, or a shell that becomes it.
+/// Starts the binary, or a shell that becomes it, as from a terminal: signals that whoever runs the tests ignores, such as a shell that
+/// runs them in its background, are heard.
 fn start(shell: &str, arguments: &[&str]) -> Child {
-    let mut command = match shell {
-        "" => Command::new(env!("CARGO_BIN_EXE_wheelrail")),
-        _ => {
-            let mut command = Command::new("sh");
-            command.args(["-c", &format!("{shell}; exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_wheelrail")]);
-            command
-        }
-    };
+    let mut command = Command::new("env");
+    command.arg("--default-signal=INT,TERM,HUP");
+    if !shell.is_empty() {
+        command.args(["sh", "-c", &format!("{shell}; exec \"$0\" \"$@\"")]);
+    }
+    command.arg(env!("CARGO_BIN_EXE_wheelrail"));
     command.current_dir(env!("CARGO_MANIFEST_DIR")).args(arguments).args(SMALL);
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
