@@ -83,7 +83,7 @@ fn a_simulation_that_is_told_to_end_leaves_its_rows_in_place_and_says_where() {
         assert_eq!(output.status.code(), Some(code), "{said}");
         assert_eq!(names(&folder), ["wheel.csv", "x.csv"], "{said}");
         let (count, samples) = (rows(Path::new(&out)), rows(Path::new(&wheel)));
-        let end = format!("holds what was computed up to {} s", (count - 1) as f64 * 1e-3);
+        let end = format!("holds what was computed up to {} s", (count - 1) as f64 / 1e3);
         assert!(said.contains(&format!("{out} {end}")) && said.contains(&format!("{wheel} {end}")), "{said}");
         assert!(
             said.ends_with('\n') && said.lines().last().unwrap().starts_with(&format!("error: stopped by SIG{signal}")),
