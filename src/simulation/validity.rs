@@ -105,8 +105,8 @@ const RESOLVED_PHASE: f64 = 0.2;
 /// `a²/R` \[1]. Estimated: with it, steps of up to 25 µs are indefinite in `railway_dry`, where those of 20 µs chatter
 /// and those of 50 µs do not.
 const TREAD_SHIFT: f64 = 1.5;
-/// Height that internal steps pass over, over the approach of the bodies under the nominal load, which is the error of the
-/// force over the load, beyond which a run is told of it \[1].
+/// Height that internal steps pass over, over the approach of the bodies under the nominal load, beyond which a run is told of it \[1].
+/// The force errs by about half of that share of the load.
 const MISSED: f64 = 0.01;
 /// Blow of a corner of `rail.elevation`, over the nominal load, beyond which a run is told of it \[1].
 const CORNER: f64 = 5e-3;

@@ -115,9 +115,8 @@ impl WeakSteel {
             let rise = (warming * whole).min(hot.max(0.0) / share.max(LEAST));
             let rest = self.reference + hot - share * rise;
             let found = melted_share(rise, rest, &self.material);
-            // Above the solidus a film only grows: a place whose friction comes back overheats within a step. Below, it freezes.
-            let solid = self.reference + hot <= self.material.solidus;
-            film.push(at, if solid { found } else { found.min(self.overheated(share, hot)) });
+            // While the contact is hot a film only grows: a place whose friction comes back overheats within a step.
+            film.push(at, found.min(self.overheated(share, hot)));
         }
         if film.value.iter().all(|share| *share == 1.0) {
             film.clear();
