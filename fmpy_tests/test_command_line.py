@@ -154,4 +154,4 @@ def test_public_functions_of_the_package_say_their_types_which_are_marked_for_ty
             assert function.__doc__, f"{name}.{where} says nothing"
     assert not missing and count > 100, (count, missing)
     hints = typing.get_type_hints(wheelrail.Wheel.step)
-    assert hints == {"h": float, "return": type(None)}
+    assert hints == {"h": float, "end": float | None, "return": type(None)}

@@ -22,7 +22,7 @@ def test_the_default_result_has_the_outputs_and_no_points_of_profiles(result, fm
     columns = {name: result[name].ndim for name in result.dtype.names[1:]}
     arrays = {name for name, dimensions in columns.items() if dimensions == 2}
     print(f"{len(columns)} columns, {len(arrays)} of them arrays")
-    assert columns.keys() - arrays == scalars and len(scalars) == 104 and not any("[" in name for name in columns)
+    assert columns.keys() - arrays == scalars and len(scalars) == 106 and not any("[" in name for name in columns)
     # FMI 3.0 has profiles as arrays.
     assert len(arrays) == (29 if result.modelDescription.fmiVersion == "3.0" else 0)
 

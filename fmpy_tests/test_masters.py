@@ -133,7 +133,7 @@ def unit(fmu, packed):
     """The FMU as masters want it: packed, extracted, described."""
     references = {name: variable.valueReference for name, variable in fmu.variables.items()}
     parts = {"directory": fmu.directory, "description": fmu.description, "variables": fmu.variables, "places": fmu.places}
-    return SimpleNamespace(path=packed, reference=references.__getitem__, variable=fmu.variable, **parts)
+    return SimpleNamespace(path=packed, reference=references.__getitem__, variable=fmu.variable, settings=fmu.settings, **parts)
 
 
 @pytest.fixture(scope="module")

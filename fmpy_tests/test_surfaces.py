@@ -170,7 +170,7 @@ def test_bad_files_are_refused_by_line_and_name(tmp_path):
     with pytest.raises(BadFile, match="run.csv:4: contact.force_y is 'high'"):
         analysis.read_columns(file, ("time", "contact.force_y"))
     file.write_bytes(bytes(range(256)))
-    with pytest.raises(BadFile, match="run.csv: cannot be read: no text"):
+    with pytest.raises(BadFile, match="run.csv: cannot be read: it has zero bytes"):
         analysis.read_columns(file, ("time",))
 
 
