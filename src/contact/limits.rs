@@ -98,11 +98,6 @@ impl<'a> SteelLimits<'a> {
         borne.map_or(most, |borne| (most * borne).max(self.least))
     }
 
-    /// Share of the friction coefficient at `x` \[m] that is left \[1].
-    pub fn film_at(&self, x: f64) -> f64 {
-        if self.film.is_empty() { 1.0 } else { interpolate(&self.film.x, &self.film.value, x) }
-    }
-
     /// Largest pressure at `x` \[m] \[Pa].
     pub fn pressure_at(&self, x: f64) -> f64 {
         let softened = || interpolate(&self.softened.x, &self.softened.value, x);

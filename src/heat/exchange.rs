@@ -43,6 +43,9 @@ pub struct Exchange {
     pub pressure: Piecewise,
     /// Friction power per area `|τ s|` over x [W/m²], of which the fraction `γ_f` becomes heat in the bodies.
     pub friction_power: Piecewise,
+    /// Share of the friction power that a molten film leaves at the nodes of the surfaces \[1], constant beyond its ends; empty: all
+    /// of it.
+    pub film: Piecewise,
     /// By how much the mean of the friction power over the step exceeds that at its end, relative to the latter \[1];
     /// zero: it holds over the step.
     pub friction_excess: f64,
@@ -60,6 +63,7 @@ impl Exchange {
         self.patches.clear();
         self.pressure.clear();
         self.friction_power.clear();
+        self.film.clear();
         self.friction_excess = 0.0;
         self.sources.clear();
         self.reversible.clear();

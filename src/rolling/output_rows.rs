@@ -239,8 +239,8 @@ outputs! {
     713 melted: real "damage.melted", in "m" as "mm", from 0.0, nominal 1e-5, start zero,
         "Largest thickness of molten steel below the surface of wheel or rail so far";
     719 molten: real "damage.molten", in "1" as "%", from 0.0 to 1.0, nominal 0.1,
-        "Share of the contact width in which a film of molten steel takes friction away now; 0 without contact. A film stays until the contact is \
-         colder than 400 degC";
+        "Share of the contact width in which a film of molten steel takes friction away now; 0 without contact, and where all of it is \
+         colder than material.solidus";
     803 heat_residual: real "solver.heat_residual", in "1", nominal 1e-9, start zero,
         "Heat balance since the start: unaccounted heat over all heat that has flowed, from sources and from warm places to cold ones; \
          0 where none has";

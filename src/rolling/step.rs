@@ -25,6 +25,9 @@ const COOLER: usize = 6;
 /// Longest step that is taken again \[s]: longer ones are divided, so that friction can follow the temperature.
 const LONGEST_AGAIN: f64 = 1e-3;
 
+/// Share of friction that comes back where a film freezes for which a step is taken again \[1].
+const FROZEN: f64 = 1e-3;
+
 /// Largest change of the weights at the contact edges that counts as converged in a step [1].
 const EDGE_TOLERANCE: f64 = 0.02;
 
@@ -84,7 +87,8 @@ pub fn step(
     }
     let mut again: Option<Box<State>> = None;
     for _ in 0..COOLER {
-        if plan.dt > LONGEST_AGAIN * (1.0 + 1e-9) || !overheats(model, state, next) {
+        let short = plan.dt <= LONGEST_AGAIN * (1.0 + 1e-9);
+        if !(short && overheats(model, state, next) || freezes(model, again.as_deref().unwrap_or(state), next)) {
             break;
         }
         let again = again.get_or_insert_with(|| boxed(state));
@@ -127,6 +131,18 @@ fn overheats(model: &RollingModel, state: &State, next: &State) -> bool {
     let Some(model) = &model.thermal else { return false };
     let [before, after] = [state, next].map(|state| model.reference() + state.largest(Line::hottest));
     after > before && after > model.frictionless() && before <= model.hottest()
+}
+
+/// True if the contact is solid everywhere at the end, but has gone without friction under the film with which `state` began.
+fn freezes(model: &RollingModel, state: &State, next: &State) -> bool {
+    let Some(thermal) = &model.thermal else { return false };
+    let gains = |(before, after): (&Line, &Line)| {
+        let (acted, found, traction) = (before.weakening(), after.weakening(), &after.contact.traction);
+        let missed = traction.load_times(|x| (found.film_at(x) - acted.film_at(x)).max(0.0));
+        !acted.film.is_empty() && missed > FROZEN * traction.resultant.height
+    };
+    let solid = thermal.reference() + next.largest(Line::hottest) <= model.config.material.solidus;
+    solid && state.lines.iter().zip(&next.lines).any(gains)
 }
 
 /// Takes the step with the film of `state`, its heat only if the judge lets its motion pass; tells whether it does.

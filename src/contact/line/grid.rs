@@ -69,6 +69,11 @@ impl ContactGrid {
         &self.nodes
     }
 
+    /// Positions of the candidates and of the node next to them on both sides \[m], ascending.
+    pub fn around(&self) -> &[f64] {
+        &self.nodes[self.guard - 1..=self.guard + self.len()]
+    }
+
     /// Distance \[m] between both neighbours of candidate `i`: the base of central differences, twice [`Self::width`].
     pub fn span(&self, i: usize) -> f64 {
         let node = i + self.guard;

@@ -6,6 +6,7 @@
 //! slip.
 
 use super::grid::ContactGrid;
+use crate::contact::film;
 use crate::contact::limits::SteelLimits;
 use nalgebra::DVector;
 
@@ -37,8 +38,8 @@ impl Strength {
     /// Finds all limits; `forces` are the port forces of the start, `lateral` those across at the candidates [N/m]; empty:
     /// there are none.
     pub fn find(&mut self, grid: &ContactGrid, limits: &SteelLimits, forces: &DVector<f64>, lateral: &[f64]) {
-        let Self { limit, in_shear, pressed, film } = self;
-        [&mut *in_shear, limit, pressed, film].into_iter().for_each(Vec::clear);
+        let Self { limit, in_shear, pressed, film: of_film } = self;
+        [&mut *in_shear, limit, pressed, of_film].into_iter().for_each(Vec::clear);
         if limits.is_limited() {
             in_shear.extend(grid.x.iter().enumerate().map(|(i, &x)| grid.width(i) * limits.strength_at(x)));
             pressed.extend((0..grid.len()).map(|i| forces[grid.port(i) + 1]));
@@ -63,7 +64,7 @@ impl Strength {
             }));
         }
         if !limits.film.is_empty() {
-            film.extend(grid.x.iter().map(|&x| limits.film_at(x)));
+            of_film.extend(film::means(grid.around(), limits.film));
         }
     }
 

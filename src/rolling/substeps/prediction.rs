@@ -184,9 +184,12 @@ impl Found {
     }
 }
 
-/// True if a step from a state may melt the contact: it is then taken again with a molten film, so that its first motion
-/// tells nothing.
+/// True if a step from a state may melt the contact or freeze it: it is then taken again with another molten film, so that its
+/// first motion tells nothing.
 pub fn may_melt(model: &RollingModel, from: &State) -> bool {
+    if from.lines.iter().any(|line| !line.weakening().film.is_empty()) {
+        return true;
+    }
     let hot = |limit: f64, reference: f64| reference + hottest(from) > limit - NEARLY_MOLTEN;
     model.thermal.as_ref().is_some_and(|thermal| hot(thermal.frictionless(), thermal.reference()))
 }

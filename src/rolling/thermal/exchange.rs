@@ -28,7 +28,8 @@ impl ThermalContact<'_> {
         if film.is_empty() {
             copy(&contact.friction.dissipation, &mut exchange.friction_power);
         } else {
-            film::divided(&contact.friction.dissipation, film, &mut exchange.friction_power);
+            film::undone(&contact.friction.dissipation, film, &mut exchange.friction_power);
+            copy(film, &mut exchange.film);
         }
         exchange.friction_excess = contact.friction.excess;
         exchange.arriving = self.arriving;

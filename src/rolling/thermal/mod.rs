@@ -324,7 +324,7 @@ impl ThermalModel {
             }
             None => thermal.deformation = ThermalDeformation::NONE,
         }
-        self.weakening.find(&*self.heat, contact.traction, self.warming.unit(dt), thermal, seen)?;
+        self.weakening.find(&*self.heat, contact.traction, [dt, self.warming.unit(dt)], thermal, seen)?;
         Ok(())
     }
 

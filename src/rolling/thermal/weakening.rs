@@ -18,6 +18,13 @@ const LOADED_DEPTH: f64 = 0.5;
 /// Share of friction below which temperatures say nothing about those without a film [1].
 const LEAST: f64 = 1e-3;
 
+/// Least share of friction on a molten place \[1]: as good as none, but its heat keeps its place.
+const REMAINS: f64 = 1e-6;
+
+/// Time in which the friction of a place that freezes grows by as much as there was, while the contact is molten elsewhere \[s].
+/// The slip that waves of the wheel bring there is not known before the step.
+const FREEZES: f64 = 1e-3;
+
 /// Largest part of the friction on a place that one step takes away because it is overheated [1].
 const CUT: f64 = 0.75;
 
@@ -48,13 +55,14 @@ impl WeakSteel {
         (self.melts && self.material.film_friction < 1.0).then_some(self.material.liquidus)
     }
 
-    /// Fills `thermal.weakening` from the temperatures `seen` after a step within which a unit of power per area warms the
-    /// surfaces by `warming` [K m²/W], infinite in the stationary state; its film is still that of the step before.
+    /// Fills `thermal.weakening` from the temperatures `seen` after a step of `dt` \[s] within which a unit of power per area
+    /// warms the surfaces by `warming` [K m²/W], both infinite in the stationary state; its film is still that of the step
+    /// before.
     pub fn find(
         &self,
         heat: &dyn HeatModel,
         traction: &Traction,
-        warming: f64,
+        [dt, warming]: [f64; 2],
         thermal: &mut ThermalState,
         seen: &mut Observation,
     ) -> Result<(), StepError> {
@@ -63,7 +71,10 @@ impl WeakSteel {
         weakening.warmer_wheel.clear();
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if self.melts {
-            self.melt(heat.zone_x(), [warming, hottest], traction, seen, &mut weakening.film);
+            match hottest <= SOFTENS || weakening.film.is_empty() && hottest <= self.material.solidus {
+                true => weakening.film.clear(),
+                false => self.melt(heat.zone_x(), [dt, warming], traction, seen, &mut weakening.film),
+            }
         }
         if !self.yields || hottest <= SOFTENS || traction.patches.is_empty() {
             return Ok(());
@@ -92,31 +103,38 @@ impl WeakSteel {
     /// at its end is taken as linear in the share, and the share that belongs to its own temperature is found; a share
     /// from the temperature before would let the surface overheat and freeze in turns. In a long step the flash follows
     /// friction in full; in a short one it rises by `warming` [K m²/W] times the power of friction without a film.
+    ///
+    /// Above the solidus a film only grows. A place that freezes beside molten ones gets its friction back by and by
+    /// ([`FREEZES`]), and no film outlasts the last molten place.
     fn melt(
         &self,
         zone: &[f64],
-        [warming, hottest]: [f64; 2],
+        [dt, warming]: [f64; 2],
         traction: &Traction,
         seen: &Observation,
         film: &mut Piecewise,
     ) {
-        if hottest <= SOFTENS || film.is_empty() && hottest <= self.material.solidus {
-            film.clear();
-            return;
-        }
         let before = film.clone();
         film.clear();
         let [wheel, rail] = &seen.surface;
-        for ((&at, wheel), rail) in zone.iter().zip(wheel).zip(rail) {
+        let pressed = |at: f64| traction.patches.iter().any(|patch| patch.low <= at && at <= patch.high);
+        let places = zone.iter().zip(wheel.iter().zip(rail).map(|(wheel, rail)| wheel.max(*rail)));
+        let places = places.filter(|(at, _)| pressed(**at));
+        let is_solid = |hot: f64| self.reference + hot <= self.material.solidus;
+        let all_solid = places.clone().all(|(_, hot)| is_solid(hot));
+        for (&at, hot) in places {
             let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, at) };
-            let hot = wheel.max(*rail);
             let slip = libm::hypot(traction.slip.at(at), traction.lateral_slip.at(at));
             let whole = (traction.friction.coefficient * traction.pressure.at(at) * slip).abs();
             let rise = (warming * whole).min(hot.max(0.0) / share.max(LEAST));
             let rest = self.reference + hot - share * rise;
             let found = melted_share(rise, rest, &self.material);
-            // While the contact is hot a film only grows: a place whose friction comes back overheats within a step.
-            film.push(at, found.min(self.overheated(share, hot)));
+            let most = match is_solid(hot) {
+                true if all_solid => 1.0,
+                true => share.max(LEAST) * (1.0 + dt / FREEZES),
+                false => self.overheated(share, hot),
+            };
+            film.push(at, found.min(most).max(REMAINS));
         }
         if film.value.iter().all(|share| *share == 1.0) {
             film.clear();

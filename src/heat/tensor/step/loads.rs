@@ -53,6 +53,9 @@ impl SurfaceLoads {
         self.friction.clear();
         self.friction.resize(layout.zone_elements(), [0.0; 2]);
         zone.add_friction(thermal.heat_ratio, &exchange.friction_power, &mut self.friction)?;
+        if !exchange.film.is_empty() {
+            zone.leave(&exchange.film, &mut self.friction);
+        }
         self.conductance.clear();
         self.conductance.resize(layout.zone_elements(), [0.0; 3]);
         zone.add_conductance(thermal, exchange, &mut self.conductance)?;
@@ -95,6 +98,16 @@ impl Zone<'_> {
             })?;
         }
         Ok(())
+    }
+
+    /// Leaves the `share` at every node of its load: a node without friction is not heated by its neighbours, either.
+    fn leave(&self, share: &Piecewise, loads: &mut [[f64; 2]]) {
+        let share_at = |x: f64| interpolate(&share.x, &share.value, x);
+        for (load, ends) in loads.iter_mut().zip(self.x.windows(2)) {
+            let [whole, second] = *load;
+            let of_second = second * share_at(ends[1]);
+            *load = [(whole - second) * share_at(ends[0]) + of_second, of_second];
+        }
     }
 
     /// Appends the heat that reversible temperatures conduct, taken as linear on every element.
