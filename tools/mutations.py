@@ -32,9 +32,11 @@ TABLE = Path(__file__).with_suffix(".toml")
 MARKED = re.compile(r"([^«»]*)«([^«»]+)»([^«»]*)", re.DOTALL)
 # Code on which vibration modes depend that tests keep in the folder `basis`.
 OF_BODIES = ("src/material.rs", "src/analytic.rs", "src/fem/", "src/linalg/", "src/mechanics/")
-# Where and how tests are compiled: all of them, and those of the brief run.
+# Where and how tests are compiled: all of them, and those of the brief run. To cargo, crates of the copy are those of the checkout: in
+# the folder of the product they must differ by their profile, lest it takes the one for the other.
 WHOLE = ("target/mutations/build", ["--profile", "edit"])
-BRIEF = ("target", ["--release", "--config", "profile.release.package.wheelrail.opt-level=0"])
+UNOPTIMISED = [f"profile.release.package.{name}.opt-level=0" for name in ("wheelrail", "wheelrail-slave")]
+BRIEF = ("target", ["--release", *(word for setting in UNOPTIMISED for word in ("--config", setting))])
 # Number of the coefficient that is wrong, and its factor.
 SWITCH = "WHEELRAIL_WRONG_COEFFICIENT"
 # What the library of the copy has besides.
