@@ -43,7 +43,7 @@
 # make random-temperatures 500 random parameter sets: temperatures within their bounds or refused by name
 # make leak-check memory errors and leaks of the FMU's C interface, with valgrind
 # make mutations each coefficient of steel, friction, heat, damping and damage 5 % wrong in a copy of the source: whether the test that is
-#                named for it notices; ARGS="film damping" takes those with these words, ARGS=--brief those of unit tests in one build
+#                named for it notices; ARGS="film damping" takes those with these words, ARGS=--brief those of unit tests, as `make test` does
 # make house     counts of the source: impl files, fields, duplicate names, comments, long functions, lines
 # make docs      HTML documentation of the library; every warning is an error
 # make bench-page  a wheel that rolls, brakes and locks in the browser: target/bench/index.html; says which compiler is missing
@@ -137,6 +137,7 @@ test-tools:
 test-rust:
 	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail -p wheelrail-slave -p wheelrail-bench
 	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail-thesis
+	$(WRAPPED) $(PYTHON) tools/mutations.py --brief
 
 test-fmpy: $(FMU) $(FMU3) $(COACH) $(BENCH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 	$(PY) -m pytest --numprocesses logical fmpy_tests

@@ -200,6 +200,9 @@ mod tests {
         assert!(close(STEEL.layer_expansion(), beta / STEEL.wave_modulus()));
         // Stress σ_t = λ ε_n − β T of the layer with σ_n = (λ + 2μ) ε_n − β T = 0.
         assert!(close(STEEL.layer_pressure(), beta - lame * STEEL.layer_expansion()));
+        assert!(close(STEEL.density * STEEL.shear_wave_speed().powi(2), shear));
+        assert!(close(STEEL.density * STEEL.pressure_wave_speed().powi(2), lame + 2.0 * shear));
+        assert!(close(STEEL.diffusivity(), 45.0 / (7850.0 * 460.0)));
     }
 
     /// Rayleigh's equation `(2 − q)² = 4 √(1 − q) √(1 − q c_S²/c_P²)` with `q = (c_R/c_S)²`.

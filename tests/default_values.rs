@@ -171,6 +171,8 @@ fn falling_friction_without_a_memory_of_its_own_has_that_of_the_presets() {
     let falling = Tuning { falling_ratio: 0.4, falling_decay: 0.6, ..Tuning::default() };
     assert!((FrictionLaw::from(&falling).memory_length / 25e-6 - 1.0).abs() < EXACT);
     assert_eq!(FrictionLaw::from(&Tuning::default()).memory_length, 0.0);
+    let own = Tuning { memory_length: 4e-5, ..falling };
+    assert_eq!(FrictionLaw::from(&own).memory_length, 4e-5);
 }
 
 /// Masses, springs and widths that stand for the rest of a vehicle and its track.

@@ -506,6 +506,25 @@ fn cooling_rates_are_means_from_800_to_500_degrees() {
     assert!((found / expected - 1.0).abs() < 1e-3, "{found} for {expected}");
 }
 
+/// 51 K/s are faster than the critical 50 K/s, 49 K/s are not.
+#[test]
+fn austenite_that_cools_more_slowly_than_the_critical_rate_becomes_no_martensite() {
+    let found = [51.0, 49.0].map(|rate| point(&[(0.0, 300.0), (0.5, 1400.0), (0.5 + 1000.0 / rate, 400.0)]).martensite);
+    assert!(found[0] > 0.8 && found[1] == 0.0, "{found:?}");
+}
+
+/// A place is followed that is at least 300 K hotter than the mean of the wheel, of which moments here have none.
+#[test]
+fn places_are_hot_from_their_threshold_over_the_wheel() {
+    let spots = wheel(1.0);
+    let opened = [297.0, 303.0].map(|excess| {
+        let mut damage = spots.begin([0.0; 2]);
+        heat(&spots, &mut damage, 0.0, excess);
+        damage.spots.len()
+    });
+    assert_eq!(opened, [0, 1]);
+}
+
 /// Up from 500 to 1500 K and down at 1000 K/s: half a second above 1000 K on either side.
 #[test]
 fn the_time_above_ac1_is_that_of_the_course() {

@@ -5,11 +5,12 @@
     tools/mutations.py film damping       those whose names hold one of these words
     tools/mutations.py --factor 0.95      too small in place of too large
     tools/mutations.py --check            whether the table fits the source, without compiling
-    tools/mutations.py --brief            those that unit tests catch, compiled in the release profile beside the product
+    tools/mutations.py --brief            those that unit tests catch, with crates that are compiled for the product
 
 The copy and what is compiled of it lie in target/mutations: the working tree is never touched. Coefficients of the copy are
-multiplied by what an environment variable says, so that one build serves them all; presets are read anew. Exit code 1 if a test passes
-with a wrong coefficient, fails with the right ones or does not run.
+multiplied by what an environment variable says, so that one build serves them all; presets are read anew. The brief run compiles the
+copy beside the product, whose crates it shares, and does not optimise it: that would take longer than its tests do without. Exit
+code 1 if a test passes with a wrong coefficient, fails with the right ones or does not run.
 """
 
 import argparse
@@ -31,6 +32,11 @@ TABLE = Path(__file__).with_suffix(".toml")
 MARKED = re.compile(r"([^«»]*)«([^«»]+)»([^«»]*)", re.DOTALL)
 # Code on which vibration modes depend that tests keep in the folder `basis`.
 OF_BODIES = ("src/material.rs", "src/analytic.rs", "src/fem/", "src/linalg/", "src/mechanics/")
+# Where and how tests are compiled: all of them, and those of the brief run. To cargo, crates of the copy are those of the checkout: in
+# the folder of the product they must differ by their profile, lest it takes the one for the other.
+WHOLE = ("target/mutations/build", ["--profile", "edit"])
+UNOPTIMISED = [f"profile.release.package.{name}.opt-level=0" for name in ("wheelrail", "wheelrail-slave")]
+BRIEF = ("target", ["--release", *(word for setting in UNOPTIMISED for word in ("--config", setting))])
 # Number of the coefficient that is wrong, and its factor.
 SWITCH = "WHEELRAIL_WRONG_COEFFICIENT"
 # What the library of the copy has besides.
@@ -138,10 +144,10 @@ def switched(mutations, root):
 
 
 class Copy:
-    """A copy of a checkout in `folder`, in which some files have other texts, and in which tests run that `build` holds."""
+    """A copy of a checkout in `folder`, in which some files have other texts; its tests are compiled into `build` as `options` say."""
 
-    def __init__(self, root, folder, texts, profile, build):
-        self.source, self.profile, self.build = folder / "source", profile, build
+    def __init__(self, root, folder, texts, build, options):
+        self.source, self.build, self.options = folder / "source", build, options
         self.kept, self.aside = (self.source / "target" / name for name in ("basis", "basis.aside"))
         self.source.mkdir(parents=True, exist_ok=True)
         self.lock = open(folder / "lock", "w")
@@ -191,13 +197,15 @@ class Copy:
     def programs(self, names):
         """Compiles test programs: their executables by name."""
         chosen = [word for name in sorted(names) for word in (["--lib"] if name == "lib" else ["--test", name])]
-        command = [os.environ.get("CARGO", "cargo"), "test", "--profile", self.profile, "--locked", "--no-run"]
+        command = [os.environ.get("CARGO", "cargo"), "test", *self.options, "--locked", "--no-run"]
         environment = dict(os.environ, CARGO_TARGET_DIR=str(self.build))
         command += ["--message-format", "json", *chosen]
         done = subprocess.run(command, cwd=self.source, env=environment, text=True, stdout=subprocess.PIPE)
-        if done.returncode:
-            raise Unfit(f"{', '.join(sorted(names))}: not compiled")
         artifacts = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
+        if done.returncode:
+            said = [each["message"] for each in artifacts if "message" in each]
+            errors = [each["rendered"] for each in said if each["level"] == "error"]
+            raise Unfit("\n".join([f"{', '.join(sorted(names))}: not compiled", *errors]))
         tests = [each for each in artifacts if each.get("executable") and each["profile"]["test"]]
         name = lambda each: each["target"]["name"] if each["target"]["kind"] == ["test"] else "lib"  # noqa: E731
         return {name(each): each["executable"] for each in tests}
@@ -263,9 +271,8 @@ def main(arguments, root=ROOT, table=TABLE):
         mutations = [each for each in mutations if not chosen.words or any(word in each.name for word in chosen.words)]
         if not mutations:
             raise Unfit(f"no coefficient has {' or '.join(chosen.words)} in its name")
-        folder = root / "target" / "mutations"
-        profile, build = ("release", root / "target") if chosen.brief else ("edit", folder / "build")
-        with closing(Copy(root, folder, switched(mutations, root), profile, build)) as there:
+        build, options = BRIEF if chosen.brief else WHOLE
+        with closing(Copy(root, root / "target/mutations", switched(mutations, root), root / build, options)) as there:
             missed = run(there, root, mutations, chosen.factor)
     except Unfit as unfit:
         print(f"mutations: {unfit}", file=sys.stderr)

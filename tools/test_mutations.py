@@ -16,13 +16,15 @@ import mutations
 CARGO = """#!{python}
 import json, os, pathlib, sys
 if {broken}:
+    print(json.dumps({{"message": {{"level": "error", "rendered": "error: no such steel"}}}}))
     sys.exit(101)
 build = pathlib.Path(os.environ["CARGO_TARGET_DIR"])
 build.mkdir(parents=True, exist_ok=True)
 program = build / "steel"
 program.write_text({program!r}.replace("SOURCE", repr(pathlib.Path("src/steel.rs").read_text())))
 program.chmod(0o755)
-print(json.dumps({{"executable": str(program), "target": {{"name": "steel", "kind": ["test"]}}, "profile": {{"test": True}}}}))
+kind = ["rlib"] if "--lib" in sys.argv else ["test"]
+print(json.dumps({{"executable": str(program), "target": {{"name": "steel", "kind": kind}}, "profile": {{"test": True}}}}))
 """
 # Its tests compare the numbers of the source, and of the preset that lies there now, with right ones.
 PROGRAM = """#!{python}
@@ -33,7 +35,7 @@ def wrong_by(coefficient):
     return float(factor) if coefficient == int(number) else 1.0
 source = SOURCE + "preset " + re.sub(r'.*: ([0-9.]+).*', r"= \\1", pathlib.Path("steel.json").read_text())
 right = {{"density() -> f64": 7850.0, "MELTS: f64": 1700.0, "preset": 0.3}}
-tests = [test for test in sys.argv[2:] if test in RIGHT]
+tests = [test for test in (path.split("::")[-1] for path in sys.argv[2:]) if test in RIGHT]
 print(f"running {{len(tests)}} tests")
 found = re.compile(r"(density\\(\\) -> f64|MELTS: f64|preset) [={{]+ ?([^;}}\\n]+)")
 values = {{name: eval(text.replace("crate::", "")) for name, text in found.findall(source)}}
@@ -134,7 +136,7 @@ class Mutations(unittest.TestCase):
         code, said, _ = self.outcome("density", steel=STEEL.replace("{ 7850.0", "{ 7000.0"), table=TABLE.replace("7850.0", "7000.0"))
         self.assertEqual((code, "fail with the right coefficients" in said), (1, True), said)
         code, said, _ = self.outcome(broken=True)
-        self.assertEqual((code, "not compiled" in said), (1, True), said)
+        self.assertEqual((code, "steel: not compiled\nerror: no such steel" in said), (1, True), said)
         with mock.patch.object(mutations.Mutation, "path", "a_test_of_another_program"), mock.patch.object(mutations, "check"):
             code, said, _ = self.outcome("density")
         self.assertEqual((code, "did not run a_test_of_another_program" in said), (1, True), said)
@@ -170,7 +172,7 @@ class Mutations(unittest.TestCase):
             subprocess.run(["git", "init", "--quiet", root], check=True)
             (copy / "source/target/basis").mkdir(parents=True)
             (copy / "source/target/basis/right").touch()
-            make = lambda: mutations.Copy(root, copy, {}, "edit", copy / "build")  # noqa: E731
+            make = lambda: mutations.Copy(root, copy, {}, copy / "build", [])  # noqa: E731
             with contextlib.closing(make()) as there:
                 with there.forgetful():
                     self.assertFalse(there.kept.exists())
@@ -182,10 +184,13 @@ class Mutations(unittest.TestCase):
             with contextlib.closing(make()) as there:
                 self.assertEqual([path.name for path in there.kept.iterdir()], ["right"])
 
-    def test_every_coefficient_of_the_table_stands_in_the_source_and_its_test_too(self):
-        table = mutations.read(mutations.TABLE)
-        mutations.check(table, mutations.ROOT)
-        self.assertGreater(len(table), 200)
+    def test_the_brief_run_takes_what_unit_tests_catch_and_looks_at_the_whole_table(self):
+        table = TABLE.replace('"steel::it_is_heavy"', '"lib::steel::tests::it_is_heavy"')
+        code, said, _ = self.outcome("--brief", table=table, steel=STEEL + TESTS)
+        self.assertEqual(code, 0, said)
+        self.assertIn("1 coefficients times 1.05: 1 caught; not: none", said)
+        code, said, _ = self.outcome("--brief", table=table.replace("«0.3»", "«0.4»"), steel=STEEL + TESTS)
+        self.assertEqual((code, "0 times, not once" in said), (1, True), said)
 
 
 if __name__ == "__main__":

@@ -450,7 +450,10 @@ mod tests {
         let logarithm = 2.0 * (1.0 - STEEL.poissons_ratio) * STEEL.factor();
         // `asinh(w/|x|) − (1 − 2ν)/(1 − ν)` for a width w = 2.
         let reach = 4.0_f64.ln() - (1.0 - 2.0 * STEEL.poissons_ratio) / (1.0 - STEEL.poissons_ratio);
-        assert!((patch.own(0, 0, tile.half_length).reach - reach).abs() < 1e-3);
+        let own = patch.own(0, 0, tile.half_length);
+        assert!((own.reach - reach).abs() < 1e-3);
+        // That of one half-plane, `(1 − ν)/(πG)` (Flamant).
+        assert!((own.factor * PI * 81e9 / 0.7 - 1.0).abs() < 1e-12, "{}", own.factor);
         assert!(rest.displacement.iter().all(|c| c.abs() < 1e-3 * logarithm), "{rest:?}");
     }
 

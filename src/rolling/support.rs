@@ -182,3 +182,23 @@ impl CondensedBase {
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rail_rests_on_springs_dampers_and_mass_of_the_parameters() {
+        let mut config = Config::default();
+        let rail = &mut config.rail;
+        (rail.support_stiffness, rail.support_damping, rail.support_mass) = (5e7, 2e5, 300.0);
+        let TrackSupport { stiffness, damping, mass } = TrackSupport::new(&config).unwrap();
+        let width = config.width();
+        let found = [stiffness, damping].into_iter().flatten().chain([mass]).map(|value| value * width);
+        // Of the rail, a metre long and 0.1 m high, and of 14 mm of its width.
+        let steel = 7850.0 * 1.0 * 0.1 * 0.014;
+        for (found, expected) in found.zip([4e8, 5e7, 1e6, 2e5, 300.0 + steel]) {
+            assert!((found / expected - 1.0).abs() < 1e-12, "{found} for {expected}");
+        }
+    }
+}

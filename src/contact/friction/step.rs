@@ -269,6 +269,18 @@ mod tests {
         assert!((coarse / fine).log2() > 1.8);
     }
 
+    /// Under steady heating it arrives at the coefficient of the law without memory, whose temperature is its own.
+    #[test]
+    fn memory_arrives_at_the_softened_coefficient() {
+        let (law, heating, slip) = (FrictionLaw { memory_length: 0.01, ..LAW }, steady(2000.0), 0.5);
+        let exact = Friction::local(LAW, 0.3, heating, 0.0).coefficient(slip);
+        let mut mu = 0.3;
+        for _ in 0..1000 {
+            mu = Friction::local(law, 0.3, heating, 0.0).after(1e-3, mu, slip, heating).coefficient(slip);
+        }
+        assert!((mu / exact - 1.0).abs() < 1e-9, "{mu} for {exact}");
+    }
+
     #[test]
     fn memory_decays_exponentially_over_the_sliding_distance_and_keeps_in_stick() {
         let falling = SlipDependence::Exponential { remaining: 0.5, decay: 1e3 };

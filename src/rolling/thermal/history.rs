@@ -152,5 +152,12 @@ mod tests {
         let mesh = history.spots.mesh();
         assert!((mesh.diffusivity() * capacity / conductivity - 1.0).abs() < 1e-12);
         assert!((mesh.effusivity() / (conductivity * capacity).sqrt() - 1.0).abs() < 1e-12);
+        assert_eq!(history.spots.begin([0.0, 7.0]).peak, 293.0);
+    }
+
+    #[test]
+    fn structures_are_told_by_the_temperatures_of_the_parameters() {
+        let Criteria { austenitisation, martensite_start, critical_cooling, threshold } = criteria(&Tuning::default());
+        assert_eq!([austenitisation, martensite_start, critical_cooling, threshold], [1000.0, 575.0, 50.0, 300.0]);
     }
 }

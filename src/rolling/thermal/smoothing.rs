@@ -117,13 +117,13 @@ mod tests {
     /// `cos kx` under the depth d becomes `e^{−kd} cos kx`, far from the ends.
     #[test]
     fn waves_fade_with_the_depth_of_the_heat() {
-        let x: Vec<f64> = (0..=4000).map(|i| 1e-3 * f64::from(i - 2000)).collect();
+        let x: Vec<f64> = (0..=2000).map(|i| 1e-3 * f64::from(i - 1000)).collect();
         for (k, d) in [(40.0, 5e-3), (40.0, 2e-2), (100.0, 1e-2)] {
             let mut values: Vec<f64> = x.iter().map(|x| (k * x).cos()).collect();
             Smoothing::default().apply(&x, &mut values, d, (1e-3, 1.0));
             let expected = (-k * d).exp();
-            println!("k d = {}: {} for {expected}", k * d, values[2000]);
-            assert!((values[2000] / expected - 1.0).abs() < 0.02);
+            println!("k d = {}: {} for {expected}", k * d, values[1000]);
+            assert!((values[1000] / expected - 1.0).abs() < 0.02);
         }
     }
 

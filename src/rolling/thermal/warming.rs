@@ -41,6 +41,7 @@ impl Warming {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::piecewise::Piecewise;
 
     /// A half-space under the flux q warms by `2q √(t/(π kρc))` (Carslaw & Jaeger, *Conduction of Heat in Solids*, 2.9), and each
     /// of two takes half of the power.
@@ -49,5 +50,18 @@ mod tests {
         let (flux, time) = (0.5, 4e-3);
         let expected = 2.0 * flux * (time / (PI * 50.0 * 7850.0 * 470.0)).sqrt();
         assert!((Warming::new(&Config::default()).unit(time) / expected - 1.0).abs() < 1e-12);
+    }
+
+    /// 2 MW/m² at a friction coefficient of 0.4, of which 90 % become heat.
+    #[test]
+    fn friction_warms_by_its_heat_over_its_coefficient() {
+        let even = |value: f64| Piecewise { x: vec![-1e-3, 1e-3], value: vec![value; 2] };
+        let mut traction = Traction { pressure: even(5e8), ..Traction::default() };
+        (traction.friction.coefficient, traction.friction.dissipation) = (0.4, even(2e6));
+        let mut config = Config::default();
+        config.thermal.heat_ratio = 0.9;
+        let warming = Warming::new(&config);
+        let expected = 0.9 * 2e6 / 0.4 * warming.unit(4e-3);
+        assert!((warming.by_friction(&traction, 4e-3) / expected - 1.0).abs() < 1e-12);
     }
 }
