@@ -91,7 +91,8 @@ fn work(preset: &str, height: f64, (course, milliseconds): (Course, usize)) -> V
 fn flights_and_load_jumps_take_few_linear_problems_a_step() {
     let calm: Course = |_, _| {};
     let sine: Course = |inputs, t| inputs.drive.load = 1e5 * (1.0 + 0.4 * (std::f64::consts::TAU * 15.0 * t).sin());
-    let jumps: Course = |inputs, t| inputs.drive.load = if (200.0 * t - 0.1) as u64 % 2 == 0 { 0.0 } else { 2e5 };
+    let jumps: Course =
+        |inputs, t| inputs.drive.load = if ((200.0 * t - 0.1) as u64).is_multiple_of(2) { 0.0 } else { 2e5 };
     for preset in ["railway_ellipse", "railway_s1002_3mm"] {
         assert_eq!(work(preset, 0.0, (calm, 5)), [[0, 1]; 5], "{preset}");
         for (name, height, course, most) in [
