@@ -48,7 +48,12 @@ fn locked(inputs: &mut Inputs, k: usize) {
     inputs.drive.omega = at_first * (1.0 - k as f64 / 12.0).max(0.0);
 }
 
-fn runs() -> [Run; 4] {
+/// Load that ceases, and comes back twice as large: the wheel flies for some milliseconds and lands in the eighth.
+fn landing(inputs: &mut Inputs, k: usize) {
+    inputs.drive.load = if k <= 5 { 0.0 } else { 2e5 };
+}
+
+fn runs() -> [Run; 5] {
     let mut flat = ellipse(7, 6, true);
     flat.wheel.profile = "flat(position = 0.05, length = 0.02)".to_owned();
     let mut soft = ellipse(7, 6, true);
@@ -59,6 +64,7 @@ fn runs() -> [Run; 4] {
         run("locked, hot", ellipse(7, 6, true), locked, 1e-3, [20, 10], false),
         run("on a flat", flat, braked, 2e-4, [12, 10], false),
         run("yielding", soft, braked, 1e-3, [8, 8], false),
+        run("landing", ellipse(7, 6, true), landing, 1e-3, [8, 2], false),
     ]
 }
 

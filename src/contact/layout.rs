@@ -239,6 +239,12 @@ impl PatchLayout {
         load.max(LEAST * self.load)
     }
 
+    /// Load \[N] under which the bodies approach each other by `approach` \[m]; zero where they are apart.
+    pub fn load_under(&self, approach: f64) -> f64 {
+        let ratio = approach.max(0.0) / self.approach;
+        self.load * ratio * ratio.sqrt()
+    }
+
     /// Load for which a line with this `share` of the width, the first one, is laid out \[N].
     pub fn load_of_share(&self, share: f64) -> f64 {
         self.rows.first().map_or(0.0, |row| self.load * (share * self.width / row.width).powi(3))

@@ -33,8 +33,8 @@ pub use kernel::{LineKernel, Logarithm};
 pub use layout::{LineLayout, PatchLayout, PatchMaterial};
 pub use limits::SteelLimits;
 pub use problem::{
-    AxisDrive, ContactProblem, Influence, LayoutsOfLoad, LineProblem, OneLine, RetardedSurface, RigidMotion, Spin,
-    SurfaceResponse,
+    AxisDrive, Begin, ContactProblem, Influence, LayoutsOfLoad, LineProblem, OneLine, RetardedSurface, RigidMotion,
+    Spin, SurfaceResponse,
 };
 pub use solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
 pub use traction::{SolvedFriction, Traction, Yielding};

@@ -315,6 +315,17 @@ pub struct ContactProblem<'a> {
     pub edge_tolerance: f64,
     /// Layouts that follow the load, by which a solver may replace that at hand; `None`: there is only this one.
     pub layouts: Option<&'a dyn LayoutsOfLoad>,
+    /// Where a solver begins that searches for the states of nodes.
+    pub begin: Begin,
+}
+
+/// States of nodes with which a search begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Begin {
+    /// Those of the step before, on patches that are longer by this factor \[1].
+    Before(f64),
+    /// Those of the results at hand, which have been found for the same step in another layout.
+    Found,
 }
 
 /// Layouts of lines that follow the load of all.

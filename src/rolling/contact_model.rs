@@ -1,9 +1,10 @@
 //! The contact between wheel and rail: surfaces, solver, and the one place where its problem is put together.
 
-use super::bodies::Operators;
+use super::contact_step::ContactStep;
 use super::error::StepError;
 use super::line::Line;
 use super::lines;
+use super::load_to_come;
 use super::patch_lines::PatchLines;
 use super::standing;
 use super::state::State;
@@ -12,13 +13,11 @@ use crate::axes::{Axis, PerAxis};
 use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, LayoutsOfLoad,
-    LineLayout, LineProblem, Ports, RetardedSurface, RigidMotion, Spin, SteelLimits, SurfaceResponse, Traction,
+    AxisDrive, Begin, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction,
+    LayoutsOfLoad, LineLayout, LineProblem, Ports, RetardedSurface, SteelLimits, SurfaceResponse, Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
-use crate::mechanics::response::FreeResponse;
-use crate::multistep::TimeDerivative;
 use crate::piecewise::{self, smooth_step};
 use crate::surface::{Placement, Surfaces};
 use std::cell::Cell;
@@ -45,32 +44,6 @@ pub struct ContactModel {
     pub shear_yield: f64,
     /// Distance from the contact point up to which contact is looked for at all [m].
     reach: f64,
-}
-
-/// Everything that distinguishes one contact problem of a model from another.
-pub struct ContactStep<'a> {
-    /// Answers of the bodies for this step size.
-    pub operators: &'a Operators,
-    /// Their answers without contact forces: wheel, rail.
-    pub free: &'a [FreeResponse; 2],
-    /// The rigid motions.
-    pub rigid: PerAxis<RigidMotion>,
-    /// Turning about the normal of the contact.
-    pub spin: Spin,
-    /// Time formula; all zero: stationary.
-    pub time: TimeDerivative,
-    /// Length of the step \[s]; zero: stationary.
-    pub duration: f64,
-    /// Distance travelled \[m] and angle by which the hub has turned \[rad] at the end of the step, as predicted.
-    pub place: [f64; 2],
-    /// Height of the rail \[m].
-    pub elevation: f64,
-    /// True if the steel keeps its strength however hot it is.
-    pub cold_steel: bool,
-    /// Friction coefficient of every line as a function of the slip at the end of the step.
-    pub friction: &'a [Friction],
-    /// Largest change of the weights at the contact edges that counts as converged \[1].
-    pub edge_tolerance: f64,
 }
 
 impl ContactModel {
@@ -144,8 +117,9 @@ impl ContactModel {
 
     /// Solves for the contact forces of all lines; `start` are the results of the step before.
     ///
-    /// Lines are laid out for a load. A solver that is able to lets them follow the load that it finds, others solve again
-    /// where they have found another one: a search by tangents of the load as a function of the approach.
+    /// Lines are laid out for a load. A solver that is able to lets them follow the load that it finds. Others begin with the
+    /// load that is expected and solve again where they have found another one: a search by tangents of the load as a
+    /// function of the approach.
     pub fn solve(
         &self,
         step: &ContactStep,
@@ -155,16 +129,14 @@ impl ContactModel {
     ) -> Result<(), ContactError> {
         found.resize_with(start.len(), Line::default);
         let carried = |lines: &[Line]| self.width * lines::sum(lines, |line| line.contact.traction.resultant.height);
-        // Lines without forces have been laid out for those that are expected.
-        let mut load = match carried(start) {
-            carried if carried > 0.0 => self.patch.load_of(carried),
-            _ => self.patch.load_of(self.patch.load_laid_out(start)),
-        };
+        let before = carried(start);
+        let mut load = self.patch.load_of(load_to_come::expected(&self.patch, step, start, before, self.width));
         // More layouts count as iterations: they tell one branch from another.
         let (mut more, mut first) = (0, load);
+        let mut begin = Begin::Before(if before > 0.0 && load > 0.0 { libm::cbrt(load / before) } else { 1.0 });
         for _ in 0..MOST_LAYOUTS {
             self.patch.lay_out(load, lines::ports(start), found);
-            let laid_out = self.solve_laid_out(step, start, (found, load), scratch);
+            let laid_out = self.solve_laid_out((step, begin), start, (found, load), scratch);
             load = laid_out.map_err(|error| self.of_patch(error, load))?;
             if more == 0 {
                 first = load;
@@ -174,7 +146,7 @@ impl ContactModel {
             if missed(load, next) <= if more == 0 { 0.0 } else { SAME_LOAD } {
                 break;
             }
-            (load, more) = (next, more + 1);
+            (load, more, begin) = (next, more + 1, Begin::Found);
         }
         found.iter_mut().for_each(|line| line.contact.traction.iterations += more);
         Ok(())
@@ -195,7 +167,7 @@ impl ContactModel {
     /// which the solver ends.
     fn solve_laid_out(
         &self,
-        step: &ContactStep,
+        (step, begin): (&ContactStep, Begin),
         start: &[Line],
         (found, load): (&mut [Line], f64),
         scratch: &mut ContactScratch,
@@ -210,6 +182,7 @@ impl ContactModel {
             nominal_load: self.nominal_line_load(),
             edge_tolerance: step.edge_tolerance,
             layouts: Some(&following),
+            begin,
         };
         let before: Vec<_> = start.iter().map(|line| &line.contact).collect();
         let mut after: Vec<_> = found.iter_mut().map(|line| &mut line.contact).collect();

@@ -136,6 +136,14 @@ impl PatchLines {
         }
     }
 
+    /// Load \[N] under which the bodies approach each other by `approach` \[m]; zero where that does not matter.
+    pub fn load_under(&self, approach: f64) -> f64 {
+        match &self.layouts {
+            Layouts::Constant(..) => 0.0,
+            Layouts::Sized { patch, .. } => patch.load_under(approach),
+        }
+    }
+
     /// Load for which lines are laid out \[N]; zero where that does not matter.
     pub fn load_laid_out(&self, lines: &[Line]) -> f64 {
         match (&self.layouts, lines) {

@@ -1,7 +1,7 @@
 //! One implicit step: predict → solve the contact → commit → audit → heat.
 
 use super::audit;
-use super::contact_model::ContactStep;
+use super::contact_step::ContactStep;
 use super::control::{Drive, Inputs};
 use super::error::StepError;
 use super::flattening;
@@ -10,7 +10,7 @@ use super::model::{RollingModel, Workspace};
 use super::nodes;
 use super::sideways;
 use super::spreading;
-use super::state::{Brake, HubForces, Motion, State};
+use super::state::{Brake, Controlled, HubForces, Motion, State};
 use super::thermal::{self, HeatStep, HeatSupply, ThermalLine, ThermalScratch};
 use super::wear;
 use crate::axes::PerAxis;
@@ -48,6 +48,8 @@ struct Plan {
     speeds: [f64; 2],
     /// Friction of every line.
     friction: Vec<Friction>,
+    /// Change of the contact force \[N/m], if it goes on as in the step before.
+    rise: f64,
 }
 
 /// Demand that leads from one state to the next.
@@ -65,6 +67,8 @@ pub struct Demand<'a> {
     pub interim: bool,
     /// Length of the step before \[s]; 0: the time formula starts afresh.
     pub last_step: f64,
+    /// Quantities at its beginning.
+    pub before: Controlled,
 }
 
 /// Computes the state `next` one internal step of `dt` seconds after `state`, and tells whether it counts: not if the
@@ -260,7 +264,8 @@ impl Plan {
             friction.after(dt, before.coefficient, before.slip_speed, heating)
         });
         let friction = friction.collect();
-        Self { dt, td, of_height, restarted: before == 0.0, drives, given, speeds, friction }
+        let rise = ratio * (state.resultant().height - demand.before.forces.height);
+        Self { rise, dt, td, of_height, restarted: before == 0.0, drives, given, speeds, friction }
     }
 }
 
@@ -311,6 +316,7 @@ fn solve_and_commit(
         spin: sideways::spin(demand.target),
         time: *td,
         duration: *dt,
+        rise: plan.rise,
         place,
         elevation: demand.target.elevation,
         cold_steel: false,

@@ -10,7 +10,7 @@ use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::kernel::logarithms;
 use wheelrail::contact::line::{ContactGrid, GridState};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
+    AxisDrive, Begin, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
     LineKernel, LineProblem, RigidMotion, SolverState, Spin, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
@@ -195,6 +195,7 @@ impl HalfPlanes {
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,
             layouts: None,
+            begin: Begin::Before(1.0),
         };
         let mut found = vec![ContactState::default(); lines.len()];
         let mut places: Vec<_> = found.iter_mut().collect();

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
+    AxisDrive, Begin, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
     LineLayout, LineProblem, PatchFlexibility, RigidMotion, Spin, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
@@ -126,6 +126,7 @@ impl RigidBodies {
             nominal_load,
             edge_tolerance: 1e-5,
             layouts: None,
+            begin: Begin::Before(1.0),
         };
         let mut found = start.to_vec();
         let before: Vec<_> = start.iter().collect();

@@ -20,7 +20,7 @@ use crate::contact::error::ContactError;
 use crate::contact::line::contact_line::{ContactLine, LineScratch, LineStart};
 use crate::contact::line::state::NodeStatus;
 use crate::contact::line::{ContactGrid, exchange, finish, zone};
-use crate::contact::problem::ContactProblem;
+use crate::contact::problem::{Begin, ContactProblem};
 
 /// Iterations allowed.
 pub const MAX_ITERATIONS: usize = 240;
@@ -131,12 +131,23 @@ impl<'a> ActiveSet<'a> {
             line.take_surface_angle();
             line.frame.rim_angle = line.predicted_angle();
         }
+        self.begin_states();
         self.open_apart()?;
         let iterations = self.find_states(laws)?;
         self.lines.iter_mut().for_each(|line| line.traction.iterations = iterations);
         self.lines.iter().try_for_each(zone::check)?;
         self.lines.iter_mut().for_each(finish::finish);
         Ok(())
+    }
+
+    /// Takes the states with which the search begins. Upwind differences begin with those of the step before all the same: from
+    /// others they would end elsewhere within their tolerance, and forces would jump where a layout is tried more or less.
+    pub fn begin_states(&mut self) {
+        match self.problem.begin {
+            Begin::Before(1.0) => {}
+            Begin::Before(factor) => self.lines.iter_mut().for_each(|line| states::stretch(line, factor)),
+            Begin::Found => self.lines.iter_mut().for_each(ContactLine::resume),
+        }
     }
 
     /// Opens all nodes of a stationary contact whose surfaces are apart under the given motions: from nodes that hold them

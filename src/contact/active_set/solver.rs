@@ -3,11 +3,11 @@
 use super::search::ActiveSet;
 use crate::contact::error::ContactError;
 use crate::contact::line::ContactGrid;
-use crate::contact::line::contact_line::LineStart;
+use crate::contact::line::contact_line::{LineStart, Resumed};
 use crate::contact::line::history::LineHistory;
 use crate::contact::line::state::{AcrossNodes, GridState, NodeStatus};
 use crate::contact::line::vectors::copy;
-use crate::contact::problem::{ContactProblem, LineProblem};
+use crate::contact::problem::{Begin, ContactProblem, LineProblem};
 use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, SolverState};
 use crate::contact::traction::Traction;
 use crate::multistep::History;
@@ -33,14 +33,15 @@ impl ActiveSetSolver {
     }
 }
 
-/// Makes `found` the start of a search.
-fn begin<'a>(start: &ContactState, found: &'a mut ContactState) -> Result<LineStart<'a>, ContactError> {
+/// Makes `found` the start of a search, which begins with its states where they are `resumed`.
+fn begin<'a>(start: &ContactState, found: &'a mut ContactState, resumed: bool) -> Result<LineStart<'a>, ContactError> {
     let before = start.solver.grid().ok_or(ContactError::ForeignState)?;
     let ContactState { ports, traction, history, energy, solver, .. } = found;
     if !matches!(solver, SolverState::Grid(_)) {
         *solver = SolverState::Grid(Box::default());
     }
     let SolverState::Grid(state) = solver else { return Err(ContactError::ForeignState) };
+    let resumed = resumed.then(|| Resumed::take(state, traction));
     state.copy_from(before);
     history.copy_from(&start.history);
     *ports = start.ports;
@@ -50,7 +51,7 @@ fn begin<'a>(start: &ContactState, found: &'a mut ContactState) -> Result<LineSt
     for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
         copy(ours, theirs);
     }
-    Ok(LineStart { state, history, traction, energy })
+    Ok(LineStart { state, history, traction, energy, resumed })
 }
 
 impl ContactSolver for ActiveSetSolver {
@@ -86,7 +87,8 @@ impl ContactSolver for ActiveSetSolver {
         if !problem.lines.iter().all(fits) || [start.len(), found.len()] != [problem.lines.len(); 2] {
             return Err(ContactError::ForeignState);
         }
-        let begun = start.iter().zip(found).map(|(start, found)| begin(start, found));
+        let resumed = problem.begin == Begin::Found && !problem.is_sideways();
+        let begun = start.iter().zip(found).map(|(start, found)| begin(start, found, resumed));
         let mut starts = begun.collect::<Result<Vec<_>, _>>()?;
         let ContactScratch { active_set, linear_laws, .. } = scratch;
         if !problem.is_sideways() {

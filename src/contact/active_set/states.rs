@@ -7,7 +7,7 @@
 //!   unless the surfaces run against each other. Without these rules the iteration cycles.
 
 use crate::contact::line::contact_line::ContactLine;
-use crate::contact::line::state::NodeStatus;
+use crate::contact::line::state::{GridState, NodeStatus};
 
 /// Tolerance of nodal forces in mean nodal loads, at first and at most.
 const FORCE_TOLERANCE: [f64; 2] = [1e-9, 1e-4];
@@ -163,6 +163,25 @@ pub(super) fn founding_state(line: &ContactLine) -> NodeStatus {
 pub(super) fn found_anew(line: &mut ContactLine) {
     let founding = founding_state(line);
     line.state.status.iter_mut().filter(|s| s.is_stuck()).for_each(|s| *s = founding);
+}
+
+/// Gives all nodes the states that they have once the patch has become longer by a factor about its middle; a change of less
+/// than half a node at either end is none.
+pub(super) fn stretch(line: &mut ContactLine, factor: f64) {
+    let (x, GridState { status, yielded, .. }) = (&line.grid.x, &mut *line.state);
+    let closed = |s: &NodeStatus| s.is_active();
+    let (Some(first), Some(last)) = (status.iter().position(closed), status.iter().rposition(closed)) else { return };
+    if (last - first) as f64 * (1.0 / factor - 1.0).abs() < 1.0 {
+        return;
+    }
+    let middle = 0.5 * (x[first] + x[last]);
+    let nearest = |place: f64| {
+        let above = x.partition_point(|x| *x < place).clamp(1, x.len() - 1);
+        if place - x[above - 1] < x[above] - place { above - 1 } else { above }
+    };
+    let from: Vec<_> = x.iter().map(|x| nearest(middle + (x - middle) / factor)).collect();
+    *status = from.iter().map(|&i| status[i]).collect();
+    *yielded = from.iter().map(|&i| yielded[i]).collect();
 }
 
 /// Closes the nearest node of lines without any; returns whether it did.

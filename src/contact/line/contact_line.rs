@@ -7,7 +7,7 @@ use super::others::{LineForces, OtherLines};
 use super::retarded::Retarded;
 use super::rim::{RimAngleRow, RimFrame};
 use super::slopes::Slopes;
-use super::state::GridState;
+use super::state::{GridState, NodeStatus};
 use super::streamline::UpwindRows;
 use crate::axes::PerAxis;
 use crate::contact::flexibility::{ByPowers, Field};
@@ -100,6 +100,7 @@ pub struct ContactLine<'a> {
     pub surface_angle: f64,
     /// Spin of the wheel, if the line has a lateral direction.
     pub spin: Spin,
+    resumed: Option<Resumed>,
 }
 
 /// State, history, traction and elastic energy from which a line starts, and which it changes.
@@ -108,6 +109,26 @@ pub struct LineStart<'a> {
     pub history: &'a mut LineHistory,
     pub traction: &'a mut Traction,
     pub energy: &'a mut f64,
+    /// States and forces with which the search begins, if they are others.
+    pub resumed: Option<Resumed>,
+}
+
+/// States of the candidates and port forces of a solution, from which another one is looked for.
+pub struct Resumed {
+    status: Vec<NodeStatus>,
+    yielded: Vec<bool>,
+    port_forces: DVector<f64>,
+}
+
+impl Resumed {
+    /// Takes them from a solution.
+    pub fn take(state: &mut GridState, traction: &mut Traction) -> Self {
+        Self {
+            status: std::mem::take(&mut state.status),
+            yielded: std::mem::take(&mut state.yielded),
+            port_forces: std::mem::take(&mut traction.port_forces),
+        }
+    }
 }
 
 impl<'a> ContactLine<'a> {
@@ -118,7 +139,7 @@ impl<'a> ContactLine<'a> {
         start: LineStart<'a>,
         scratch: &'a mut LineScratch,
     ) -> Self {
-        let LineStart { state, history, traction, energy } = start;
+        let LineStart { state, history, traction, energy, resumed } = start;
         let LineScratch { given, iterate } = scratch;
         if !problem.limits.is_limited() {
             state.yielded.fill(false);
@@ -141,6 +162,14 @@ impl<'a> ContactLine<'a> {
             frame,
             surface_angle: 0.0,
             spin: Spin::default(),
+            resumed,
+        }
+    }
+
+    /// Takes the states and forces with which the search begins, if they are others than those of the step before.
+    pub fn resume(&mut self) {
+        if let Some(Resumed { status, yielded, port_forces }) = self.resumed.take() {
+            (self.state.status, self.state.yielded, self.traction.port_forces) = (status, yielded, port_forces);
         }
     }
 

@@ -1,7 +1,7 @@
 //! The stationary contact at given temperatures.
 
 use super::super::audit;
-use super::super::contact_model::ContactStep;
+use super::super::contact_step::ContactStep;
 use super::super::error::StepError;
 use super::super::flattening;
 use super::super::line::Line;
@@ -148,6 +148,7 @@ impl Pass<'_> {
             spin: goal.spin(),
             time: td,
             duration: 0.0,
+            rise: 0.0,
             place: [0.0; 2],
             elevation: goal.drive.elevation,
             cold_steel: false,

@@ -321,9 +321,9 @@ fn march(
         let from: &State = if begun { now } else { state };
         place.meet_stop(from, ramp.h, tuning, tried);
         let dt = ramp.h / place.pieces as f64;
-        let interim = place.done + 1 < place.pieces;
+        let (interim, before) = (place.done + 1 < place.pieces, control.memory.before);
         let [begin, target] = [place.done, place.done + 1].map(|done| ramp.at(done as f64 / place.pieces as f64));
-        let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, interim, last_step };
+        let demand = Demand { inputs: ramp.inputs, begin: &begin, target: &target, tuning, interim, last_step, before };
         let (verdict, found) =
             match judged(model, from, &demand, (dt, place.may_halve(tuning, tried + 1)), &mut control, workspace, next)
             {

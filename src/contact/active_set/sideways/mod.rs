@@ -48,6 +48,7 @@ impl ActiveSet<'_> {
             line.take_surface_angle();
             line.frame.rim_angle = line.predicted_angle();
         }
+        self.begin_states();
         let pressed = self.press()?;
         let mut turns = Turns { laws, pressed, made: 0, linear_laws: 0 };
         let ended = self.turn_about::<32>(&mut turns)?
