@@ -114,7 +114,7 @@ help:
 
 # The last of them tells which figures of the pages differ from what all others have printed.
 test: forget-figures test-tools test-rust test-fmpy
-	-@$(MAKE) --no-print-directory figures ALL=1
+	@$(MAKE) --no-print-directory figures ALL=1
 
 # What the tests need: `.ci/run` makes it side by side.
 environments: $(INSTALLED) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)

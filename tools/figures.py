@@ -2,7 +2,7 @@
 """Figures of the pages: tests and studies print them, docs/figures.csv keeps them, and the pages are written from it.
 
     make figures                          compares what was printed last with the values that are kept, and these with the pages
-    make figures ALL=1                    every figure of a test must have been printed, too: `make test` tells what differs
+    make figures ALL=1                    every figure of a test must have been printed, too: `make test` ends with it
     make figures ACCEPT=1 REASON="..."    keeps what was printed and writes the pages; a worse figure needs the reason
     tools/figures.py --by-hand            figures of the tables of docs/validation.md that no program writes
     tools/figures.py --keep locked-wheels make locked-wheels    runs a study and keeps the figures that it prints
