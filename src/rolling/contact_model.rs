@@ -130,7 +130,13 @@ impl ContactModel {
         found.resize_with(start.len(), Line::default);
         let carried = |lines: &[Line]| self.width * lines::sum(lines, |line| line.contact.traction.resultant.height);
         let before = carried(start);
-        let mut load = self.patch.load_of(load_to_come::expected(&self.patch, step, start, before, self.width));
+        let mut load = self.patch.load_of(load_to_come::expected(
+            &self.patch,
+            step,
+            start,
+            [before, self.nominal_load],
+            self.width,
+        ));
         // More layouts count as iterations: they tell one branch from another.
         let (mut more, mut first) = (0, load);
         let mut begin = Begin::Before(if before > 0.0 && load > 0.0 { libm::cbrt(load / before) } else { 1.0 });

@@ -8,16 +8,24 @@ use crate::contact::{Ports, RigidMotion};
 
 /// Largest factor by which a load is expected to grow or fall.
 const LARGEST_RISE: f64 = 2.0;
-/// Load over that of the approach of free bodies, below which the latter tells what is to come \[1].
+/// Load over that of the approach of free bodies and over the nominal one, below which the former tells what is to come \[1].
 const FAINT: f64 = 0.1;
+/// Largest load that is expected of a landing, over the nominal one \[1]: in long steps free bodies fall any distance.
+const BLOW: f64 = 10.0;
 
-/// Load \[N] that is expected at the end of a step from the lines `start`, which carry the load `before` \[N]; `width` \[m] is
-/// that of the bodies.
+/// Load \[N] that is expected at the end of a step from the lines `start`, which carry the load `before` \[N], given
+/// the `nominal` one \[N]; `width` \[m] is that of the bodies.
 ///
 /// Points follow the load by themselves. On nodes it goes on as in the step before. Where there is next to none it becomes
 /// that of the approach with which the bodies would end without contact forces: lines that are laid out for far less are
 /// pushed up by their own pressures, and have no solution.
-pub fn expected(patch: &PatchLines, step: &ContactStep, start: &[Line], before: f64, width: f64) -> f64 {
+pub fn expected(
+    patch: &PatchLines,
+    step: &ContactStep,
+    start: &[Line],
+    [before, nominal]: [f64; 2],
+    width: f64,
+) -> f64 {
     let on_points = lines::ports(start) == Ports::Smooth;
     let going_on = match before > 0.0 {
         true if on_points => before,
@@ -28,8 +36,8 @@ pub fn expected(patch: &PatchLines, step: &ContactStep, start: &[Line], before: 
     if on_points || step.time.is_stationary() {
         return going_on;
     }
-    let met = patch.load_under(free_approach(step, start));
-    if before < FAINT * met { going_on.max(met) } else { going_on }
+    let met = patch.load_under(free_approach(step, start)).min(BLOW * nominal);
+    if before < FAINT * met.min(nominal) { going_on.max(met) } else { going_on }
 }
 
 /// Distance \[m] by which the bodies overlap in the middle at the end of a step without contact forces.
