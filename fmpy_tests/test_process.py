@@ -353,7 +353,8 @@ def watch():
         seen.append({name: value for name, value in state().items() if value != before[name]})
 
 for name, text in (
-    ("mine", "import helper\\nimport time\\ntime.sleep(0.02)\\nclass P:\\n    def step(self, h):\\n        import deeper, packed.inner\\n        return helper.value + deeper.value + packed.inner.value"),
+    ("mine", "import helper\\nimport time\\ntime.sleep(0.02)\\nclass P:\\n    def step(self, h):\\n        import deeper, packed.inner"
+     "\\n        return helper.value + deeper.value + packed.inner.value"),
     ("helper", "from deeper import value\\nimport time\\ntime.sleep(0.02)"), ("deeper", "import dataclasses\\n@dataclasses.dataclass\\nclass D:\\n    a: 'int' = 2\\nvalue = D().a"),
     ("packed/__init__", "from . import inner"), ("packed/inner", "value = 3"),
 ):

@@ -69,7 +69,8 @@ class Calls:
     """
 
     def __init__(self, name):
-        self.name, self.log, self.lock, self.owner = name, [], RLock(), os.getpid()
+        self.name, self.lock, self.owner = name, RLock(), os.getpid()
+        self.log: list[Message] = []
         self._heard, self._warned = 0, set()
         _living.add(self)
 
