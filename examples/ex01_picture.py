@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from wheelrail.plots import COLOURS, GREY, pyplot, save
+from wheelrail.plots import COLOURS, GREY, Picture, save
 
 KELVIN = 273.15  # K at 0 °C
 SLIDING = 0.01  # creepage
@@ -18,8 +18,7 @@ def draw(path, table, film, radius):
     the wheel's."""
     from matplotlib.colors import LinearSegmentedColormap, Normalize
 
-    plt = pyplot()
-    figure = plt.figure(figsize=(8, 7.4), layout="constrained")
+    figure = Picture(figsize=(8, 7.4))
     grid = figure.add_gridspec(4, 3, height_ratios=(0.9, 1.0, 1.3, 1.4))
     hot = max(film.profile("temperature_wheel").max() - KELVIN, 200.0)
     colours = {"cmap": LinearSegmentedColormap.from_list("glow", GLOW), "norm": Normalize(0.0, hot)}
@@ -101,6 +100,7 @@ def _temperatures(axis, table, film, window, colours):
     axis.grid(False)
     axis.set_title("Temperature of the tread in the contact, whose edges are the lines (travel upwards)")
     scale = axis.figure.colorbar(image, cax=axis.inset_axes([0.92, 0.1, 0.015, 0.72]))
+    scale.ax.tick_params(labelsize=9)
     scale.ax.set_title("°C", loc="center", fontsize=9, pad=3)
 
 

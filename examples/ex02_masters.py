@@ -35,7 +35,7 @@ import numpy as np
 
 from wheelrail import Fmu, Refused, Wheel
 from wheelrail.ecco import StepControl, bond
-from wheelrail.plots import pyplot, save
+from wheelrail.plots import Picture, save
 
 SPEED = 2.0  # m/s at the start
 RESIDUAL_SPEED = 0.05  # m/s, about, at the end
@@ -353,9 +353,8 @@ STYLE = {"wheel": "o-", "vehicle": "s--", "monolithic": "x:"}
 
 def plot(path, found, limit, reference, shown):
     """Draws error over step, limit over speed, and the force with one step."""
-    figure, axes = pyplot().subplot_mosaic(
-        [["error", "limit"], ["force", "legend"]], figsize=(8, 5.8), layout="constrained", width_ratios=(1, 1)
-    )
+    figure = Picture(figsize=(8, 5.8))
+    axes = figure.subplot_mosaic([["error", "limit"], ["force", "legend"]], width_ratios=(1, 1))
     draw_error(axes["error"], found)
     draw_limit(axes["limit"], limit)
     draw_force(axes["force"], reference, shown)

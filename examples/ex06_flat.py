@@ -26,7 +26,7 @@ import numpy as np
 from tqdm import tqdm
 
 from wheelrail import Fmu, Refused, Wheel
-from wheelrail.plots import GREY, pyplot, save
+from wheelrail.plots import GREY, Picture, save
 
 KELVIN = 273.15  # K at 0 °C
 LOCK = 0.02  # s, in which the rotation stops
@@ -304,7 +304,7 @@ def convergence(fmu, options, usual):
 
 def plot(path, slide, table, cooled, wheel):
     """Draws the slide, the temperatures in the depth and what is left."""
-    figure = pyplot().figure(figsize=(8, 7.6), layout="constrained")
+    figure = Picture(figsize=(8, 7.6))
     grid = figure.add_gridspec(3, 6, height_ratios=(1.0, 1.15, 1.15))
     panel = lambda row, column, width: figure.add_subplot(grid[row, column : column + width])
     slides = [panel(0, k, 2) for k in (0, 2, 4)]

@@ -25,7 +25,7 @@ import numpy as np
 
 from wheelrail import Fmu, Refused, Wheel
 from wheelrail.ecco import StepControl, Suspension
-from wheelrail.plots import pyplot, save
+from wheelrail.plots import COLOURS, save, subplots
 
 SPEED = 5.0  # m/s
 VEHICLE = 8460.0  # kg on one wheel's suspension
@@ -258,7 +258,7 @@ def equal_and_controlled(fmu):
 
 def plot(path, found, reference, steps):
     """Error of the distance and both swings over the step; deviation of the force over the number of steps."""
-    figure, grid = pyplot().subplots(2, 2, figsize=(8, 6), layout="constrained")
+    figure, grid = subplots(2, 2, figsize=(8, 6))
     axes = grid.flat
     quantities = (
         ("Error of the stopping distance", "%"), ("Swing while braking", "kN"), ("Swing after 2 s of standstill", "kN"),
@@ -276,7 +276,7 @@ def plot(path, found, reference, steps):
     for (master, controlled), points in steps.items():
         label = f"{master}, by energy" if controlled else f"{master}, equal steps"
         line = "*--" if controlled else STYLES[master]
-        axes[3].loglog(*zip(*points), line, label=label, color=f"C{MASTERS.index(master)}", markersize=8 if controlled else 4)
+        axes[3].loglog(*zip(*points), line, label=label, color=COLOURS[MASTERS.index(master)], markersize=8 if controlled else 4)
     axes[3].set(title="Deviation of the force, rms", xlabel="steps", ylabel="N", ylim=(0.03, None))
     axes[3].set_xticks([1e3, 3e3, 1e4, 3e4], ["1,000", "3,000", "10,000", "30,000"])
     axes[3].minorticks_off()

@@ -19,7 +19,7 @@ import sys
 from pathlib import Path
 
 from wheelrail import Fmu, Refused, Wheel
-from wheelrail.plots import COLOURS, pyplot, save
+from wheelrail.plots import COLOURS, save, subplots
 
 SPEED, LOAD, RADIUS = 10.0, 106.7e3, 0.625  # m/s, N, m
 LAW = {"friction.coefficient": 0.36, "friction.falling_ratio": 0.38, "friction.falling_decay": 0.7, "friction.softening": 0.0}
@@ -54,7 +54,7 @@ def judged(curve):
 
 def plot(path, clean, layered):
     """The curves and the scatter of the measurement."""
-    figure, axis = pyplot().subplots(figsize=(8, 4), layout="constrained")
+    figure, axis = subplots(figsize=(8, 4))
     axis.plot(*zip(*clean), "--", color=COLOURS[0], linewidth=1, label="FMU, clean")
     axis.plot(*zip(*layered), "o-", color=COLOURS[0], markersize=4, label="FMU, elastic layer")
     for k, (low, high, least, most) in enumerate(MEASURED):

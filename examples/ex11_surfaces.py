@@ -26,7 +26,7 @@ import numpy as np
 from tqdm import tqdm
 
 from wheelrail import Fmu, Wheel, signals, surfaces
-from wheelrail.plots import COLOURS, GREY, pyplot, save
+from wheelrail.plots import COLOURS, GREY, save, subplots
 
 KMH = 1.0 / 3.6
 LOAD = 4.7e6  # N, of Paper A on a width of 1 m
@@ -176,7 +176,7 @@ def filtered(found):
 
 def draw(path, found, axes, half_width):
     """The gallery. Forces are drawn over the static load: they belong to wheels of different width."""
-    figure, grid = pyplot().subplots(3, 3, figsize=(8, 8), layout="constrained")
+    figure, grid = subplots(3, 3, figsize=(8, 8))
     waves, hole, met = grid[0]
     draw_waves(waves, found, axes["speeds"], half_width)
     for key, colour in zip((key for key in found if key[0] == "hole"), COLOURS):

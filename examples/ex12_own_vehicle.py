@@ -23,7 +23,7 @@ from pathlib import Path
 import numpy as np
 
 from wheelrail import Fmu, Refused, Team, Wheel
-from wheelrail.plots import pyplot
+from wheelrail.plots import subplots
 
 GRAVITY = 9.81  # m/s2
 # A loaded four-axle wagon: masses [kg], pitch inertia [kg m2], heights above the rail [m]. Orders of magnitude.
@@ -264,7 +264,7 @@ def stop(fmu, h, seize, longest=3.0 * SPEED):
 
 def plot(path, table):
     """Speeds, loads of the axles, contact forces and temperatures."""
-    figure, axes = pyplot().subplots(2, 2, figsize=(8, 5), layout="constrained", sharex=True)
+    figure, axes = subplots(2, 2, figsize=(8, 5), sharex=True)
     time, of = table[:, 0], lambda block: table[:, 3 + block * WHEELS : 3 + (block + 1) * WHEELS : 2]
     titles = ("Load of a wheel [kN]", "Contact force of a wheel [kN]", "Speed [m/s]", "Hottest place of the tread [°C]")
     for block, (axis, title) in enumerate(zip((axes[0, 1], axes[1, 0], axes[0, 0], axes[1, 1]), titles)):

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from wheelrail import Fmu, Refused, Wheel
-from wheelrail.plots import COLOURS, pyplot, save
+from wheelrail.plots import COLOURS, save, subplots
 
 SPEED, TORQUE, RAMP, STEP = 100.0 / 3.6, 11e3, 1.0, 1e-3  # m/s, N m, s, s
 PRESETS = ("railway", "railway_damage", "railway_ellipse", "railway_s1002_0mm", "railway_s1002_3mm")
@@ -71,7 +71,7 @@ def across(axis, found, quantity, shown):
 
 def plot(path, found):
     """Creepage and temperature over the force, pressure and temperature across the patch at the end."""
-    figure, axes = pyplot().subplots(2, 2, figsize=(8, 5.5), layout="constrained")
+    figure, axes = subplots(2, 2, figsize=(8, 5.5))
     for colour, (preset, (rows, _, _)) in zip(COLOURS, found.items()):
         _, force, creepage, hottest = rows.T
         axes[0, 0].plot(-1e-3 * force, 100.0 * creepage, color=colour, label=preset)

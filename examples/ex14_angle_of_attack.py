@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from wheelrail import Fmu, Refused, Wheel
-from wheelrail.plots import COLOURS, pyplot, save
+from wheelrail.plots import COLOURS, save, subplots
 
 SPEED, TORQUE, STEP = 100.0 / 3.6, 7e3, 1e-3  # m/s, N m, s
 BEGIN, RAMP, END = 0.2, 0.05, 0.6  # s
@@ -77,7 +77,7 @@ def arrows(axis, lines):
 
 def plot(path, found):
     """Forces and temperature over time, and the patch from above at the end."""
-    figure, axes = pyplot().subplots(2, 2, figsize=(8, 5.5), layout="constrained")
+    figure, axes = subplots(2, 2, figsize=(8, 5.5))
     places = [(axes[0, 0], 1, "Force along the rail"), (axes[0, 1], 2, "Lateral force"), (axes[1, 0], 10, "Hottest place of the wheel")]
     for colour, (name, (rows, _)) in zip(COLOURS, found.items()):
         for axis, k, title in places:

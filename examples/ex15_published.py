@@ -25,7 +25,7 @@ import numpy as np
 from ex08_creep_curve import CREEPS, FITTED, LAYER, adhesion, judged
 from wheelrail import Fmu, Refused, Wheel, steady
 from wheelrail.output import write_rows
-from wheelrail.plots import COLOURS, pyplot, save
+from wheelrail.plots import COLOURS, save, subplots
 
 KMH = 1.0 / 3.6
 # Galton 1878, steel tyre on steel rail: mph and friction, FROM MEMORY; no readable source of the table was found.
@@ -142,7 +142,7 @@ def adhesion_over_speed(fmu, brief):
 
 def plot(path, loco, skid, adhesions):
     """Curves of cases 1, 3 and 5."""
-    figure, axes = pyplot().subplots(1, 3, figsize=(12, 3.6), layout="constrained")
+    figure, axes = subplots(1, 3, figsize=(12, 3.6))
     axes[0].plot(*zip(*loco), "o-", color=COLOURS[0], markersize=3, label="FMU")
     for k, (low, high, least, most) in enumerate(row for row, *_ in judged(loco)):
         about = {"label": "measured"} if k == 0 else {}

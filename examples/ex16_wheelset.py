@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from wheelrail import Fmu, Refused, Wheel
-from wheelrail.plots import COLOURS, pyplot, save
+from wheelrail.plots import COLOURS, save, subplots
 
 STEP, DURATION = 1e-3, 2.0  # s
 SPEEDS = (50.0, 65.0, 75.0)  # m/s
@@ -155,7 +155,7 @@ def klingel(wheelset, radius):
 
 def plot(path, runs):
     """Lateral displacement over time, one speed below the other."""
-    figure, axes = pyplot().subplots(len(runs), 1, figsize=(8, 1.8 * len(runs)), sharex=True, layout="constrained", squeeze=False)
+    figure, axes = subplots(len(runs), 1, figsize=(8, 1.8 * len(runs)), sharex=True, squeeze=False)
     for axis, colour, (speed, rows) in zip(axes[:, 0], COLOURS, runs.items()):
         axis.plot(rows[:, 0], 1e3 * rows[:, 1], color=colour)
         axis.set(title=f"{speed:.0f} m/s", ylabel="y [mm], right")

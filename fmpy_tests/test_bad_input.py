@@ -63,7 +63,7 @@ def test_absurd_step_changes_nothing(twins, outputs, h):
 def test_wrong_communication_point_changes_nothing(twins, outputs):
     wheel = twins[0]
     with pytest.raises(Refused, match="currentCommunicationPoint"):
-        wheel._call(wheel.slave.doStep, wheel.time + 0.5, 1e-3)
+        wheel._calls(wheel.slave.doStep, wheel.time + 0.5, 1e-3)
     assert_still_equal(twins, outputs)
 
 

@@ -13,7 +13,7 @@ def references(wheel, *names):
 
 
 def derivatives(wheel, unknown, known, seed):
-    return wheel._call(
+    return wheel._calls(
         wheel.slave.getDirectionalDerivative, references(wheel, *unknown), references(wheel, *known), seed
     )
 
@@ -71,7 +71,7 @@ def test_output_derivatives_are_rates(start):
     for _ in range(50):
         wheel.step(STEP)
     for name, rate in (("wheel.distance", "wheel.velocity"), ("wheel.velocity", "wheel.acceleration")):
-        (found,) = wheel._call(wheel.slave.getRealOutputDerivatives, references(wheel, name), [1])
+        (found,) = wheel._calls(wheel.slave.getRealOutputDerivatives, references(wheel, name), [1])
         assert float(found) == pytest.approx(wheel.get(rate), rel=1e-3)
 
 
@@ -90,5 +90,5 @@ def test_what_is_computed_only_when_read_has_derivatives_by_inputs_and_in_time(s
     before = wheel.get(name)
     wheel.set({"brake.torque": 5000.0, "rail.temperature": 320.0})
     wheel.step(STEP)
-    (rate,) = wheel._call(wheel.slave.getRealOutputDerivatives, references(wheel, name), [1])
+    (rate,) = wheel._calls(wheel.slave.getRealOutputDerivatives, references(wheel, name), [1])
     assert float(rate) == pytest.approx((wheel.get(name) - before) / STEP, rel=1e-9) and rate != 0.0

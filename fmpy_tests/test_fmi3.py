@@ -241,7 +241,7 @@ def test_ramps_by_intermediate_update_are_those_of_input_derivatives(fmu, fmu3):
     h, steps = 5e-3, 20
     names, work = ["drive.moment", "drive.load"], fmu3.variables["energy.hub_work"].valueReference
     references = [fmu3.variables[name].valueReference for name in names]
-    slave, asked = loaded(fmu3, "wheel", Calls([])), []
+    slave, asked = loaded(fmu3, "wheel", Calls("wheel")), []
     present, rates = [0.0, 1e5], [-1e5, 0.0]
 
     def answer(environment, time, *_):
@@ -346,7 +346,7 @@ def test_the_library_comes_and_goes_a_thousand_times(fmu3):
     """Loaded, used and unloaded; every hundredth time for a short run."""
     memory = []
     for k in range(1001):
-        slave = loaded(fmu3, f"wheel{k}", Calls([]))
+        slave = loaded(fmu3, f"wheel{k}", Calls("wheel"))
         slave.start([])
         if k % 100 == 0:
             slave.setupExperiment()

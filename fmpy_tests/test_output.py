@@ -47,8 +47,7 @@ def names(folder):
 
 def figure(path):
     """A picture."""
-    plt = plots.pyplot()
-    drawing, axis = plt.subplots(figsize=(8, 8))
+    drawing, axis = plots.subplots(figsize=(8, 8))
     axis.imshow(np.random.default_rng(1).random((900, 900)), cmap="viridis")
     plots.save(path, drawing)
 

@@ -60,7 +60,7 @@ def test_a_number_beyond_the_lines_shows_that_of_the_largest_pressure_and_a_chos
     assert 0.0 < max(wheel.profile("pressure")) < 0.8 * max(usual[0])
     with pytest.raises(wheelrail.Refused, match=r"profile.pressure\[31\] has derivatives with contact.shown_line = 0 only"):
         variable = wheel.fmu.variable("profile.pressure[31]")
-        wheel._call(wheel.slave.getRealOutputDerivatives, [variable.valueReference], [1])
+        wheel._calls(wheel.slave.getRealOutputDerivatives, [variable.valueReference], [1])
     wheel.set({"contact.shown_line": 0})
     assert max(wheel.profile("pressure")) > 1e8
 

@@ -221,6 +221,164 @@ assert b"100 %" in os.read(terminal, 100000)
 assert multiprocessing.get_start_method(allow_none=True) is None
 assert [thread.name for thread in threading.enumerate()] == ["MainThread"]
 """,
+    "who hears what the FMU says may call it on any thread": """
+import logging
+class Asks(logging.Filter):
+    "Reads the wheel, and steps another one, on another thread."
+    def filter(self, record):
+        thread = threading.Thread(target=lambda: answers.append((wheel.time, other.step(1e-3))), daemon=True)
+        thread.start()
+        thread.join(10.0)
+        late.append(thread.is_alive())
+        heard.append(record.getMessage().removeprefix("wheel: "))
+
+logger = logging.getLogger("wheelrail.fmu")
+logger.setLevel(logging.INFO)
+logger.addFilter(Asks())
+with Fmu(PACKED) as fmu:
+    for k in range(TRIES):
+        heard, late, answers = [], [], []
+        other = Wheel(fmu, START, name="other")
+        with Wheel(fmu, START) as wheel:
+            wheel.record("wheel.omega")
+            saved = wheel.save()
+            for call in (
+                lambda: wheel.set({"drive.load": -1.0}), lambda: wheel.set({"drive.omega": 3.0}), lambda: wheel.step(1e-3),
+                lambda: wheel.step(-1.0), lambda: other.restore(saved), lambda: wheel.set({"drive.load": 1e2}), lambda: wheel.step(1e-3),
+            ):
+                try:
+                    call()
+                except Refused:
+                    pass
+        assert not any(late) and len(answers) == len(heard) >= 4, (late, heard)
+        said = [str(message) for message in wheel.log]
+        assert [text for text in heard if not text.startswith("other: ")] == said and len(said) >= 3, (heard, said)
+        other.close()
+print(*heard, sep="\\n")
+""",
+    "Ctrl-C at any line of a restore": """
+import wheelrail.instances, wheelrail.opened, wheelrail.records
+FILES = {module.__file__ for module in (wheelrail.instances, wheelrail.opened, wheelrail.records)}
+
+def interrupted(call, line):
+    "Whether Ctrl-C came before the line of that number of the call."
+    def count(frame, event, _):
+        nonlocal line
+        if frame.f_code.co_filename in FILES and event in ("line", "return"):
+            line -= 1
+            if line == 0:
+                raise KeyboardInterrupt
+        return count
+    sys.settrace(count)
+    try:
+        call()
+    except KeyboardInterrupt:
+        return True
+    finally:
+        sys.settrace(None)
+    return False
+
+with Fmu(PACKED) as fmu, Wheel(fmu, START) as plain:
+    recorder = plain.record("wheel.omega")
+    for _ in range(6):
+        plain.step(1e-3)
+    expected, back, line = recorder.dataset(), 0, 0
+    going = True
+    while going:
+        line += 1
+        with Wheel(fmu, START) as wheel:
+            recorder = wheel.record("wheel.omega")
+            wheel.step(1e-3)
+            saved = wheel.save()
+            for _ in range(3):
+                wheel.step(1e-3)
+            wheel.set_rates({"drive.load": 1e6})
+            going = interrupted(lambda: wheel.restore(saved), line)
+            reached = wheel.slave.reached()
+            assert abs(wheel.time - reached) < 1e-12, (line, wheel.time, reached)
+            assert recorder.dataset().time.values[-1] == wheel.time
+            back += wheel.time == 1e-3
+            if wheel.time > 1e-3:  # where it was; a state that is set has its own rates
+                wheel.set_rates({"drive.load": 0.0})
+            while wheel.time < 5.5e-3:
+                wheel.step(1e-3)
+            assert recorder.dataset().identical(expected), line
+    print(f"{line - 1} lines, {back - 1} of them after the state was set")
+    assert line > 20 and back > 3
+""",
+    "a file lies where it was when it was named": """
+os.chdir(FOLDER)
+for folder in ("here", "there"):
+    os.makedirs(folder, exist_ok=True)
+run = wheelrail.simulate(START, stop=2e-3, fmu=PACKED)
+to_netcdf = type(run).to_netcdf
+def elsewhere(*arguments, **named):
+    os.chdir(FOLDER + "/there")
+    return to_netcdf(*arguments, **named)
+type(run).to_netcdf = elsewhere
+from wheelrail import page
+draw = page.run_page
+page.run_page = lambda *given: os.chdir(FOLDER + "/there") or draw(*given)
+os.chdir(FOLDER + "/here")
+assert str(page.write("run.html", run)) == "run.html"
+with Fmu(PACKED) as fmu:
+    for k in range(TRIES):
+        os.chdir(FOLDER + "/here")
+        wheelrail.save(run, f"run{k}.nc")
+        os.chdir(FOLDER + "/here")
+        with Wheel(fmu, START | {"wheel.profile_save": f"worn{k}.csv"}) as wheel:
+            wheel.step(1e-3)
+            os.chdir(FOLDER + "/there")
+            assert wheel.get("wheel.profile_save") == f"worn{k}.csv"
+assert len(os.listdir(FOLDER + "/here")) == 2 * TRIES + 1 and not os.listdir(FOLDER + "/there"), os.listdir(FOLDER + "/there")
+""",
+    "pictures and classes of one's own are drawn and loaded beside a notebook": """
+import builtins, importlib, pathlib
+import matplotlib
+matplotlib.use("svg")
+import matplotlib.pyplot as plt
+from wheelrail import analysis, own, plots, plots_sweep
+from wheelrail.sweep_table import DRY, EXTENSION
+matplotlib.rcParams["lines.linewidth"] = 5.0
+mine = plt.figure()
+
+def state():
+    return {
+        "style": dict(matplotlib.rcParams), "backend": plt.get_backend(), "figures": plt.get_fignums(), "path": list(sys.path),
+        "modules": [name for name in ("mine", "helper", "deeper") if name in sys.modules], "import": builtins.__import__,
+    }
+
+def watch():
+    while not done:
+        seen.append({name: value for name, value in state().items() if value != before[name]})
+
+for name, text in (
+    ("mine", "import helper\\nimport time\\ntime.sleep(0.02)\\nclass P:\\n    def step(self, h):\\n        import deeper, packed.inner"
+     "\\n        return helper.value + deeper.value + packed.inner.value"),
+    ("helper", "from deeper import value\\nimport time\\ntime.sleep(0.02)"), ("deeper", "import dataclasses\\n@dataclasses.dataclass\\nclass D:\\n    a: 'int' = 2\\nvalue = D().a"),
+    ("packed/__init__", "from . import inner"), ("packed/inner", "value = 3"),
+):
+    pathlib.Path(FOLDER, name).parent.mkdir(exist_ok=True)
+    pathlib.Path(FOLDER, f"{name}.py").write_text(text)
+
+class Protocol:
+    def step(self, h):
+        pass
+
+row = {"speed": 10.0, "stopping distance": 50.0, DRY: 40.0, EXTENSION: 25.0}
+done, seen, before = False, [], state()
+sampler = threading.Thread(target=watch)
+sampler.start()
+for k in range(max(TRIES // 4, 2)):
+    assert plots_sweep.draw_sweep(FOLDER + "/sweep.png", [row, row | {"speed": 20.0}], ["speed"], "stops") is None
+    analysis.save(FOLDER + "/line.png", lambda axis: axis.semilogx([1, 2], [3, 4]))
+    assert own.find("mine:P", FOLDER, "brake.protection", Protocol).load()().step(0.0) == 7
+done = True
+sampler.join()
+print(len(seen), "samples")
+assert len(seen) > 30 and not any(seen), [change for change in seen if change][:1]
+assert plots.subplots(figsize=(2, 2))[1].plot([1, 2])[0].get_linewidth() == 1.3 and plt.plot([1, 2])[0].get_linewidth() == 5.0
+""",
     "no console": """
 from wheelrail.__main__ import main
 report, sys.stdout, sys.stderr = sys.stderr, None, None

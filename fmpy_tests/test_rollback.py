@@ -55,7 +55,7 @@ def test_damaged_bytes_are_refused_and_the_run_goes_on(start, outputs, damage):
     saved = wheel.save()
     data = wheel.slave.serializeFMUstate(saved[0])
     with pytest.raises(Refused):
-        wheel._call(wheel.slave.deSerializeFMUstate, damage(data))
+        wheel._calls(wheel.slave.deSerializeFMUstate, damage(data))
     wheel.forget(saved)
     assert drive(wheel, outputs, 0, 5) == drive(twin, outputs, 0, 5)
 

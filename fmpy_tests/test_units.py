@@ -126,6 +126,26 @@ def test_a_unit_beside_an_input_is_used(fmu, name):
     assert course.times == TIMES and [course.at(time) for time in TIMES] == [20.0, 10.0, 5.0]
 
 
+NAMES = ("left/right", "Y/Q", "L/V", "Q/P", "wheel/rail", "v / v0", "front (mean)", "speed (raw)", "in front", "v in front", "v, axle 2", "m")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_name_that_holds_no_unit_is_a_name(fmu, name):
+    series, plain = pandas.Series(SPEEDS, pandas.Index(TIMES, name=name), name=name), {"drive.velocity": (TIMES, SPEEDS)}
+    frame = pandas.DataFrame({name: SPEEDS}, TIMES)
+    with_unit = noted(series.copy(), units="km/h")
+    for given, of in ((series, 1.0), (frame[name], 1.0), (frame, 1.0), (series.to_xarray().rename({name: "time"}), 1.0), (with_unit, 1 / 3.6)):
+        course, expected = (courses_of(fmu, inputs)["drive.velocity"] for inputs in ({"drive.velocity": given}, plain))
+        assert course.times == expected.times and course.values == pytest.approx([of * value for value in expected.values], rel=1e-15)
+
+
+def test_a_column_of_times_may_say_what_it_is(fmu):
+    for heading, of in (("time (local)", 1.0), ("t / ms", 1e3), ("Time [ms]", 1e3)):
+        table = pandas.DataFrame({heading: [of * time for time in (0.0, 1e-3, 2e-3)], "drive.load": [8e4, 8e4, 9e4]})
+        run = wheelrail.simulate(COLD, table, outputs="contact.force_y", fmu=fmu, progress=False)
+        assert run.time.values.tolist() == [0.0, 1e-3, 2e-3]
+
+
 def test_functions_and_single_values_have_units_too(fmu):
     for given in (Q(72, "km/h"), array("km/h")[0], Astropy(72.0, "km / h"), lambda time: Q(72, "km/h")):
         assert courses_of(fmu, {"drive.velocity": given})["drive.velocity"].at(0.3) == 20.0
@@ -140,6 +160,8 @@ REFUSED = {
     "one input twice": ({"drive.velocity [km/h]": 72, "drive.velocity": 20.0}, "drive.velocity is given twice"),
     "turns or radians": ({"drive.omega": Q(5, "Hz")}, "drive.omega is in 'Hz': expected rad/s, or rpm"),
     "a choice": ({"control.rotation [s]": 1}, "control.rotation is in 's': expected a number without a unit"),
+    "brackets that hold none": ({"drive.velocity": pandas.Series(SPEEDS, TIMES, name="speed [left]")}, "drive.velocity: 'left' is no unit"),
+    "another quantity by a stroke": ({"drive.velocity": pandas.Series(SPEEDS, TIMES, name="pull/kN")}, "drive.velocity is in 'kN': expected m/s"),
     "times in metres": ({"drive.velocity": array("km/h", TIMES, "m")}, "drive.velocity: time is in 'm': expected s"),
     "times in words": ({"drive.velocity": array("km/h", TIMES, "lunches")}, "drive.velocity: time: 'lunches' is no unit"),
 }
@@ -168,6 +190,26 @@ def test_a_wheel_takes_start_values_and_inputs_in_their_units(start):
             wheel.set(values)
     with pytest.raises(Refused, match="thermal.wheel_excess is a difference"):
         start({"thermal.wheel_excess [°C]": 5.0})
+
+
+def test_changes_of_inputs_have_units_too(start):
+    wheel = start(COLD)
+    wheel.step(1e-3)
+    gains = lambda changes: wheel.derivatives(["wheel.velocity", "contact.force_y"], changes)
+    plain = gains({"drive.force": 1000.0, "drive.load": 10.0})
+    print(plain)
+    assert plain[0] > 0.0
+    for changes in ({"drive.force [kN]": 1.0, "drive.load": Q(0.01, "kN")}, {"drive.force": Q(1000.0, "N"), "drive.load/N": 10}):
+        assert gains(changes) == plain
+    assert gains({"rail.temperature": Q(1.0, "K")}) == gains({"rail.temperature": 1.0})
+    for changes, words in (
+        ({"drive.force": Q(1.0, "m")}, "drive.force is in 'm': expected N, or kN"),
+        ({"drive.force [foo]": 1.0}, "drive.force: 'foo' is no unit"),
+        ({"rail.temperature [°C]": 1.0}, "rail.temperature is a difference"),
+        ({"drive.force": "much"}, "drive.force = 'much' is not a number"),
+    ):  # fmt: skip
+        with pytest.raises(Refused, match=words):
+            gains(changes)
 
 
 def test_a_run_in_other_units_is_the_run(fmu):

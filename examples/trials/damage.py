@@ -6,7 +6,6 @@
 import wheelrail
 from steps import Trial
 from wheelrail import page, paraview
-from wheelrail.plots import pyplot
 
 trial = Trial("wheel damage")
 START, SLIDE = {"initial.velocity": 20.0}, {"brake.torque": ([0.0, 0.02], [0.0, 30e3])}
@@ -23,7 +22,11 @@ def frame(out):
 
 @trial.step("temperature over patch and time, as a picture", "read point by point, drawn by hand")
 def patch(out):
-    plt = pyplot()
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
     run = wheelrail.simulate(START, SLIDE, stop=0.15, profiles=True, depth=True, progress=False)
     wheelrail.celsius(run["profile.temperature_wheel"]).plot(x="time", y="x")
     plt.savefig(out / "patch.png", bbox_inches="tight")

@@ -112,14 +112,12 @@ def _in_si(name, values, unit):
 
 def save(path, draw):
     """A picture of one diagram."""
-    from .plots import pyplot
+    from .plots import subplots
 
-    plt = pyplot()
-    figure, axis = plt.subplots(figsize=(6.4, 4.0), layout="constrained")
+    figure, axis = subplots(figsize=(6.4, 4.0))
     draw(axis)
     with fresh(path) as new:
         figure.savefig(new, dpi=110)
-    plt.close(figure)
 
 
 def _signal(options):

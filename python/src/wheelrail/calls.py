@@ -6,8 +6,10 @@ for their messages are plain text with doubled percent signs.
 """
 
 import atexit
+import logging
 import os
 import re
+from contextlib import ExitStack
 from ctypes import cast
 from threading import RLock
 from time import monotonic
@@ -17,7 +19,12 @@ import fmpy
 from fmpy import fmi1, fmi2  # as modules, which stay when they are reloaded
 
 from .values import Refused
+from .warn import warn
 
+log = logging.getLogger("wheelrail.fmu")
+LEVELS = {0: logging.INFO, 1: logging.WARNING}  # of messages by their status; others are refusals
+WARNING = 1  # status of messages about calls that worked
+AT = re.compile(r"^t = \S+ s: ")  # with which the FMU begins warnings
 PATIENCE = 10.0  # s, at the end of Python, for calls that other threads have not finished
 C_FUNCTION = re.compile(r"^fmi[23]\w+: ")  # with which the FMU begins refusals
 
@@ -55,20 +62,45 @@ def callbacks(log):
 
 
 class Calls:
-    """Calls functions of one instance, one at a time. What is refused is raised in the FMU's own words, of the list `log`."""
+    """Calls functions of one instance, one at a time. What is refused is raised in the FMU's own words, of the list `log`.
 
-    def __init__(self, log):
-        self.log, self.lock, self.owner = log, RLock(), os.getpid()
+    `with calls, calls.lock:` holds other threads off for several calls in a row. What the instance `name` says meanwhile is logged, and
+    warned of once, when the lock has been let go, also where something is raised: who hears it may call the instance on any thread.
+    """
+
+    def __init__(self, name):
+        self.name, self.lock, self.owner = name, RLock(), os.getpid()
+        self.log: list[Message] = []
+        self._heard, self._warned = 0, set()
         _living.add(self)
 
     def __call__(self, function, *arguments, **named):
-        with self.lock:
+        with self, self.lock:
             seen = len(self.log)
             try:
                 return function(*arguments, **named)
             except fmi1.FMICallException as failure:
                 said = "; ".join(message for message in self.log[seen:] if message.status == failure.status)
                 raise Refused(said or f"the FMU refused the call without a word (status {failure.status})") from None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self._heard == len(self.log) or self.lock._is_owned():  # as threading.Condition asks
+            return
+        with self.lock:
+            unsaid, self._heard = self.log[self._heard :], len(self.log)
+        with ExitStack() as one_by_one:  # also where a filter makes an error of a warning
+            for message in reversed(unsaid):
+                one_by_one.callback(self._say, message)
+
+    def _say(self, message):
+        """Logs a message, and warns of what has not been warned of."""
+        log.log(LEVELS.get(message.status, logging.ERROR), "%s: %s", self.name, message)
+        if message.status == WARNING and (text := AT.sub("", message)) not in self._warned:
+            self._warned.add(text)
+            warn(str(message))
 
     def foreign(self):
         """Whether this process was forked from that which has the instance."""

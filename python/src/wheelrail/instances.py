@@ -231,8 +231,12 @@ class Functions3(Owner):
         return self.getFMUState()
 
     def setFMUstate(self, state):
-        self.setFMUState(state)
-        self._rates = {}
+        rates, self._rates = self._rates, {}
+        try:
+            self.setFMUState(state)
+        except Exception:
+            self._rates = rates
+            raise
 
     def freeFMUstate(self, state):
         self.freeFMUState(state)

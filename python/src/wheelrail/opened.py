@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import difflib
-import logging
 import os
-import re
 from collections.abc import Iterable, Mapping
 from itertools import count
 from math import isclose
@@ -18,18 +16,13 @@ from xml.etree import ElementTree
 import fmpy
 from fmpy.model_description import ScalarVariable
 
-from .calls import Calls, Message
+from .calls import Calls
 from .folder import TemporaryFolder
 from .instances import loaded, scalars
 from .times import after
 from .units import named
 from .values import Refused, Unique, check_names, kind, plain, saved_state, short, to_fmu
-from .warn import warn
 
-log = logging.getLogger("wheelrail.fmu")
-LEVELS = {0: logging.INFO, 1: logging.WARNING}  # of messages by their status; others are refusals
-WARNING = 1  # status of messages about calls that worked
-AT = re.compile(r"^t = \S+ s: ")  # with which the FMU begins warnings
 ROUNDING = 1e-14  # relative difference of times that is rounding of one sum
 _numbers = count(1)
 
@@ -106,16 +99,16 @@ class Fmu(Unique):
             raise Refused(f"the FMU has no variable {name}" + "".join(f"; did you mean {other}?" for other in close))
         return self.variables[name]
 
-    def settings(self, values: Mapping[str, object], rate: bool = False) -> list[tuple[ScalarVariable, float | int | str]]:
+    def settings(self, values: Mapping[str, object], change: str | None = None) -> list[tuple[ScalarVariable, float | int | str]]:
         """Variables and their values as the FMU wants them, of values by names, which may have units behind them
-        (`drive.velocity [km/h]`); `rate` says that they are changes in a second."""
+        (`drive.velocity [km/h]`); `change` says that they are differences, or with "/s" rates."""
         found = {}
         for text, value in values.items():
             name, unit = named(text, self.variables)
             variable = self.variable(name)
             if name in found:
                 raise Refused(f"{name} is given twice: leave one of them out")
-            found[name] = variable, to_fmu(variable, value, unit, rate)
+            found[name] = variable, to_fmu(variable, value, unit, change)
         return list(found.values())
 
     def profiles(self) -> list[str]:
@@ -167,21 +160,20 @@ class Instance(Unique):
             check_names(values or {}, "Wheel")
         self.fmu, self.name = fmu, name
         self._time, self._moves, self._begun = 0.0, None, None  # s; where a call leads to that moves it; begin of a step not yet recorded
-        self.log: list[Message] = []
-        self._heard, self._said, self._recorders = 0, set(), []
-        self._calls = Calls(self.log)
+        self._recorders, self._calls = [], Calls(name)
+        self.log = self._calls.log
         self.slave = instance(fmu, f"{name}-{next(_numbers)}", self._calls)
         self._free = finalize(self, _free, self.slave, self._calls)
         self._free.atexit = False
         try:
-            self._call(self.slave.setupExperiment, startTime=0.0)
-            # Other FMUs of this project, such as the coach, have no such choice.
-            given = {"initial.given": "written"} if "initial.given" in fmu.variables else {}
-            self._set(given | (parameters or {}))
-            self._call(self.slave.enterInitializationMode)
-            self._set(inputs or {})
-            self._begin()
-            self._say()
+            with self._calls, self._calls.lock:
+                self._calls(self.slave.setupExperiment, startTime=0.0)
+                # Other FMUs of this project, such as the coach, have no such choice.
+                given = {"initial.given": "written"} if "initial.given" in fmu.variables else {}
+                self._set(given | (parameters or {}))
+                self._calls(self.slave.enterInitializationMode)
+                self._set(inputs or {})
+                self._begin()
         except BaseException:
             self._free()
             raise
@@ -198,11 +190,13 @@ class Instance(Unique):
 
     @time.setter
     def time(self, time: float) -> None:
+        for recorder in self._recorders:
+            recorder.rewind(time)
         self._time, self._moves = time, None
 
     def _begin(self):
         """Ends initialization, after which the wheel steps."""
-        self._call(self.slave.exitInitializationMode)
+        self._calls(self.slave.exitInitializationMode)
 
     def __enter__(self) -> Self:
         return self
@@ -213,53 +207,51 @@ class Instance(Unique):
     def close(self) -> None:
         """Terminates and frees the instance, when calls of other threads have come to their ends; nothing happens if that has been
         done. Records keep what they have. A process that was forked leaves the instance to the one that made it."""
-        with self._calls.lock:
+        with self._calls, self._calls.lock:
             if self.slave.freed:
                 return
             try:
                 if not self._calls.foreign():
                     self._tell()
                     self._time = self.time
-                    self._call(self.slave.terminate)
+                    self._calls(self.slave.terminate)
             finally:
                 self._free()
-        self._say()
 
     def set(self, values: Mapping[str, object]) -> None:
         """Sets variables: `set({"drive.load": 8e4, "control.rotation": "velocity"})`."""
         check_names(values, "set")
         self._set(values)
-        self._say()
 
     def _set(self, values):
         given = self.fmu.settings(values)
-        for variable, value in given:
-            if variable.type != "Real":
-                self._call(self._access("set", variable), [variable.valueReference], [value])
         reals = [(variable.valueReference, value) for variable, value in given if variable.type == "Real"]
-        if reals:
-            self._call(self.slave.setReal, *map(list, zip(*reals)))
+        with self._calls, self._calls.lock:
+            for variable, value in given:
+                if variable.type != "Real":
+                    self._calls(self._access("set", variable), [variable.valueReference], [value])
+            if reals:
+                self._calls(self.slave.setReal, *map(list, zip(*reals)))
 
     def set_rates(self, values: Mapping[str, float]) -> None:
         """Sets time derivatives of real inputs for the next step only: they ramp instead of holding their values."""
         check_names(values, "set_rates")
-        given = self.fmu.settings(values, rate=True)
+        given = self.fmu.settings(values, "/s")
         for variable, _ in given:
             if variable.type != "Real":
                 raise Refused(f"{variable.name} is a choice, which has no rate")
         references, rates = [variable.valueReference for variable, _ in given], [rate for _, rate in given]
-        self._call(self.slave.setRealInputDerivatives, references, [1] * len(references), rates)
-        self._say()
+        self._calls(self.slave.setRealInputDerivatives, references, [1] * len(references), rates)
 
     def get(self, *names: str) -> Any:
         """Values of variables of any types, choices by number; one name gives a scalar, several a list."""
         if not names:
             raise ValueError("get() needs the name of a variable, such as get('contact.force_x')")
         variables, values = [self.fmu.variable(name) for name in names], {}
-        with self._calls.lock:
+        with self._calls, self._calls.lock:
             for sort in dict.fromkeys(map(kind, variables)):
                 references = [v.valueReference for v in variables if kind(v) == sort]
-                values |= zip(references, self._call(getattr(self.slave, "get" + sort), references))
+                values |= zip(references, self._calls(getattr(self.slave, "get" + sort), references))
         values = [plain(variable, values[variable.valueReference]) for variable in variables]
         return values[0] if len(names) == 1 else values
 
@@ -275,10 +267,11 @@ class Instance(Unique):
         return self.get(*self.fmu.points(quantity))
 
     def derivatives(self, outputs: Iterable[str], inputs: Mapping[str, float]) -> list[float]:
-        """What real outputs gain in the last step per unit of a change of its inputs, such as `{"drive.force": 1.0}`."""
+        """What real outputs gain in the last step by changes of its inputs, such as `{"drive.force": 1.0}` or `{"drive.force [kN]": 1.0}`."""
         check_names(inputs, "derivatives")
-        unknown, known = ([self.fmu.variable(name).valueReference for name in names] for names in (outputs, inputs))
-        return list(self._call(self.slave.getDirectionalDerivative, unknown, known, list(inputs.values())))
+        unknown, given = [self.fmu.variable(name).valueReference for name in outputs], self.fmu.settings(inputs, "")
+        known, changes = [variable.valueReference for variable, _ in given], [change for _, change in given]
+        return list(self._calls(self.slave.getDirectionalDerivative, unknown, known, changes))
 
     def lines(self) -> int:
         """Number of lines of the patch across its width: `contact.line_count`, at most `contact.lines`."""
@@ -299,12 +292,11 @@ class Instance(Unique):
         """Advances by `h` seconds, to the time `end` [s] where that is known better than by their sum."""
         if not isinstance(h, Real):
             raise ValueError(f"step({short(h)}): expected a number of seconds")
-        with self._calls.lock:
+        with self._calls, self._calls.lock:
             self._tell()
             self._begun = self.time
             self.advance(h, end)
             self._tell()
-        self._say()
 
     def _tell(self):
         """Tells the recorders of a step that has been done, which an interrupt may have kept from them."""
@@ -320,59 +312,34 @@ class Instance(Unique):
 
     def advance(self, h: float, end: float | None = None) -> None:
         """Advances by a part of `h` seconds of a step, to the time `end` [s] if it is known; records do not count it."""
-        with self._calls.lock:
+        with self._calls, self._calls.lock:
             now = self.time
             self._moves = lambda: after(now, h) if end is None else end
-            self._call(self.slave.doStep, now, h)
+            self._calls(self.slave.doStep, now, h)
             self.time = self._moves()
 
     def save(self) -> tuple[object, float]:
         """A handle for `restore`; free it with `forget`."""
-        with self._calls.lock:
-            return self._call(self.slave.getFMUstate), self.time
+        with self._calls, self._calls.lock:
+            return self._calls(self.slave.getFMUstate), self.time
 
     def restore(self, saved: tuple[object, float]) -> None:
         """Returns to a saved state; records lose what came after it."""
         state, time = saved_state(saved)
-        with self._calls.lock:
+        with self._calls, self._calls.lock:
             self._tell()
             for recorder in self._recorders:
                 recorder.listen()
             self._moves = lambda: time
-            self._call(self.slave.setFMUstate, state)
+            self._calls(self.slave.setFMUstate, state)
             self.time = time
-            for recorder in self._recorders:
-                recorder.rewind()
-        self._say()
 
     def forget(self, saved: tuple[object, float]) -> None:
         """Frees a saved state."""
-        self._call(self.slave.freeFMUstate, saved_state(saved)[0])
+        self._calls(self.slave.freeFMUstate, saved_state(saved)[0])
 
     def _access(self, direction, variable):
         return getattr(self.slave, direction + kind(variable))
-
-    def _call(self, function, *arguments, **named):
-        try:
-            return self._calls(function, *arguments, **named)
-        except Refused:
-            self._say()
-            raise
-
-    def _say(self):
-        """Says warnings that have not been said."""
-        while (message := self._next()) is not None:
-            log.log(LEVELS.get(message.status, logging.ERROR), "%s: %s", self.name, message)
-            if message.status == WARNING and (text := AT.sub("", message)) not in self._said:
-                self._said.add(text)
-                warn(str(message))
-
-    def _next(self):
-        """A message that has not been said: on one thread only."""
-        with self._calls.lock:
-            unsaid = self.log[self._heard : self._heard + 1]
-            self._heard += len(unsaid)
-        return unsaid[0] if unsaid else None
 
 
 def instance(fmu: Fmu, name: str, call: Calls) -> Any:

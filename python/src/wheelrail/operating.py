@@ -56,7 +56,7 @@ class OperatingPoint(Wheel):
     def close(self) -> None:
         """Frees the instance."""
         try:
-            self._call(self.slave.exitInitializationMode)
+            self._calls(self.slave.exitInitializationMode)
         except Refused:
             self._free()  # What cannot start need not be terminated.
             return

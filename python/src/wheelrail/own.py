@@ -5,6 +5,7 @@ machines need no copy of them.
 """
 
 import ast
+import builtins
 import difflib
 import hashlib
 import importlib
@@ -15,12 +16,10 @@ import sys
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
-from functools import cache
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
 
 from .files import BadFile
-from .folder import TemporaryFolder
 
 FORM = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 
@@ -147,7 +146,7 @@ def _module(name, files):
     """The module of a name, executed anew unless `fresh_modules` has it already: of the texts of its files, or as installed."""
     made = _modules.get() if _modules.get() is not None else {}
     if (name, files) not in made:
-        made[name, files] = _made(name, files) if files else _imported(name)
+        made[name, files] = _made(files) if files else _imported(name)
     return made[name, files]
 
 
@@ -162,35 +161,42 @@ def _imported(name):
     return importlib.import_module(name)
 
 
-def _made(name, files):
-    """A module of a text. Those beside it are found in its folder, or, where that does not hold them, in a temporary one."""
-    path, text = files[0]
-    folder = Path(path).parent
-    beside = {Path(other).stem: (Path(other), content) for other, content in files[1:]}
-    if not all(other.is_file() and other.read_text(encoding="utf-8") == content for other, content in beside.values()):
-        folder = _folder(files).path
-    unique = f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:8]}"
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(unique, loader=None, origin=path))
-    module.__file__ = path
-    for stem in beside:
-        sys.modules.pop(stem, None)
-    sys.path.insert(0, str(folder))
-    sys.modules[unique] = module
-    importlib.invalidate_caches()
-    try:
-        exec(compile(text, path, "exec"), vars(module))
-    except BaseException:
-        del sys.modules[unique]
-        raise
-    finally:
-        sys.path.remove(str(folder))
-    return module
+def _package(name, folder):
+    """Loads the package of a name from a folder, if it is there and nowhere else."""
+    file = folder / name / "__init__.py"
+    if file.is_file() and not _installed(name):
+        spec = importlib.util.spec_from_file_location(name, file)
+        sys.modules[name] = importlib.util.module_from_spec(spec)
+        try:
+            spec.loader.exec_module(sys.modules[name])
+        except BaseException:
+            del sys.modules[name]
+            raise
 
 
-@cache
-def _folder(files):
-    """A temporary folder with the modules beside one's own, made once in a process."""
-    made = TemporaryFolder("wheelrail-own-")
-    for other, content in files[1:]:
-        (made.path / Path(other).name).write_text(content, encoding="utf-8")
-    return made
+def _made(files):
+    """A module of a text, with those beside it that it imports: nobody else finds these, nor do they take the place of others."""
+    texts, made = {Path(path).stem: (path, text) for path, text in reversed(files)}, {}
+
+    def module(stem):
+        if stem not in made:
+            path, text = texts[stem]
+            unique = f"{stem}_{hashlib.sha256(text.encode()).hexdigest()[:8]}"
+            new = importlib.util.module_from_spec(importlib.util.spec_from_loader(unique, loader=None, origin=path))
+            made[stem], sys.modules[unique] = new, new  # where dataclasses look
+            vars(new).update(__file__=path, __builtins__=vars(builtins) | {"__import__": import_one})
+            try:
+                exec(compile(text, path, "exec"), vars(new))
+            except BaseException:
+                del made[stem], sys.modules[unique]
+                raise
+        return made[stem]
+
+    def import_one(name, names=None, own=None, wanted=(), level=0):
+        if not level and name in texts:
+            return module(name)
+        if not level:
+            _package(name.partition(".")[0], Path(files[0][0]).parent)
+        return builtins.__import__(name, names, own, wanted, level)
+
+    return module(Path(files[0][0]).stem)

@@ -56,12 +56,13 @@ def index(times: np.ndarray, names: list[str]) -> str:
 
 def export(run: xarray.Dataset, folder: str | Path, *, along: int = 81, across: int = 41) -> Path:
     """Writes the patch of a record made with `patch=True` into a folder; returns the path of the index, `patch.pvd`."""
-    folder, grid = Path(folder), patch(run, along=along, across=across)
+    folder, place = Path(folder), Path(folder).absolute()  # the process may go elsewhere meanwhile
+    grid = patch(run, along=along, across=across)
     names = [f"patch_{k:05d}.vti" for k in range(grid.sizes["time"])]
     x, z = grid["x"].values, grid["z"].values
     for k, name in enumerate(names):
-        write(folder / name, image({f"{key} [{_unit(grid[key])}]": grid[key].values[k] for key in grid.data_vars}, x, z))
-    write(folder / "patch.pvd", index(grid["time"].values, names))
+        write(place / name, image({f"{key} [{_unit(grid[key])}]": grid[key].values[k] for key in grid.data_vars}, x, z))
+    write(place / "patch.pvd", index(grid["time"].values, names))
     return folder / "patch.pvd"
 
 

@@ -3,6 +3,8 @@
 from io import BytesIO
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from .brake import Valve
 from .output import fresh
@@ -12,29 +14,53 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9")
 GREY = "#777777"
 
 
-def pyplot():
-    """matplotlib without a window, in the style of this project: for pictures of up to 8 inch, which pages show 800 px wide, type
-    of 8 pt is 11 px high."""
-    import matplotlib
+def _usually(method, **usual):
+    """A method of matplotlib's with other defaults."""
+    return lambda self, *arguments, **named: method(self, *arguments, **usual | named)
 
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
 
-    plt.rcParams.update({"font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8.5, "axes.titlelocation": "left"})
-    plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False, "axes.spines.right": False})
-    plt.rcParams.update({"legend.frameon": False, "lines.linewidth": 1.3, "savefig.dpi": 150})
-    plt.rcParams["axes.prop_cycle"] = matplotlib.cycler(color=COLOURS)
-    return plt
+class Panel(Axes):
+    """Axes in the style of this project."""
+
+    plot, axhline, axvline = (_usually(method, linewidth=1.3) for method in (Axes.plot, Axes.axhline, Axes.axvline))
+    text, annotate = (_usually(method, fontsize=9) for method in (Axes.text, Axes.annotate))
+    set_title = _usually(Axes.set_title, loc="left", fontsize=10)
+    legend = _usually(Axes.legend, frameon=False, fontsize=8.5)
+
+    def __init__(self, *arguments, **named):
+        super().__init__(*arguments, **named)
+        self.set_prop_cycle(color=COLOURS)
+        self.grid(True, alpha=0.3)
+        self.spines[["top", "right"]].set_visible(False)
+        self.tick_params(labelsize=9)
+        for axis in (self.xaxis, self.yaxis):
+            axis.label.set_size(9)
+            axis.offsetText.set_size(9)
+
+
+class Picture(Figure):
+    """A figure of `Panel`s, of up to 8 inch, which pages show 800 px wide: type of 8 pt is 11 px high. It has no window and no part in
+    pyplot, whose backend, style and figures are those of the process."""
+
+    add_subplot, add_axes = (_usually(method, axes_class=Panel) for method in (Figure.add_subplot, Figure.add_axes))
+    legend = _usually(Figure.legend, frameon=False, fontsize=8.5)
+
+    def __init__(self, **named):
+        super().__init__(layout="constrained", **named)
+
+
+def subplots(rows=1, columns=1, *, figsize, **named):
+    """A picture and its panels."""
+    figure = Picture(figsize=figsize)
+    return figure, figure.subplots(rows, columns, **named)
 
 
 def save(path, figure):
-    """Writes a picture in 256 colours, which take a third of the room, and closes it."""
-    import matplotlib.pyplot as plt
+    """Writes a picture in 256 colours, which take a third of the room."""
     from PIL import Image
 
     drawn = BytesIO()
-    figure.savefig(drawn, format="png")
-    plt.close(figure)
+    figure.savefig(drawn, format="png", dpi=150)
     with Image.open(drawn) as image, fresh(path) as new:
         image.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(new, optimize=True, dpi=image.info["dpi"])
 
@@ -45,12 +71,9 @@ PLACES = 300  # of a curve along the track
 
 def draw_stops(path, stops, title=""):
     """Draws stops side by side, one a column: `stops` is name to (table, rail map), `title` names the scenario."""
-    plt = pyplot()
     over_time = (_speeds, _slides, _brakes, _adhesion, _temperatures)
     rows = len(over_time) + 1
-    figure, axes = plt.subplots(
-        rows, len(stops), figsize=(WIDTH, 1.45 * rows + 0.5), layout="constrained", squeeze=False, sharey="row"
-    )
+    figure, axes = subplots(rows, len(stops), figsize=(WIDTH, 1.45 * rows + 0.5), squeeze=False, sharey="row")
     for k, (name, (table, rail)) in enumerate(stops.items()):
         for draw, axis in zip(over_time, axes[:, k]):
             draw(axis, table)

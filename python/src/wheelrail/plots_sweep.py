@@ -5,7 +5,7 @@ from itertools import product
 
 import numpy as np
 
-from .plots import COLOURS, WIDTH, pyplot, save
+from .plots import COLOURS, WIDTH, save, subplots
 from .scenario import field_of
 from .sweep_table import DRY, EXTENSION, cell
 
@@ -27,8 +27,7 @@ def draw_sweep(path, rows, keys, title):
     panels = math.prod(len(values[key]) for key in varied[2:])
     if panels > MOST_PANELS:
         return f"{len(varied)} keys would make {panels} panels, more than {MOST_PANELS}; sweep.csv has all rows"
-    plt = pyplot()
-    figure = _curve(plt, rows, varied[0], values) if len(varied) == 1 else _maps(plt, rows, varied, values)
+    figure = _curve(rows, varied[0], values) if len(varied) == 1 else _maps(rows, varied, values)
     fixed = [f"{label(key)} {shown(key, values[key][0])}" for key in keys if key not in varied]
     figure.suptitle(title + (f" ({', '.join(fixed)})" if fixed else ""), fontsize=11)
     save(path, figure)
@@ -65,9 +64,9 @@ def shown(key, value):
     return f"{value:g}" if isinstance(value, int | float) and not isinstance(value, bool) else cell(value)
 
 
-def _curve(plt, rows, key, values):
+def _curve(rows, key, values):
     """Distance, and that of the dry stop, over one key; values that are no numbers side by side."""
-    figure, axis = plt.subplots(figsize=(WIDTH, 4.2), layout="constrained")
+    figure, axis = subplots(figsize=(WIDTH, 4.2))
     of = {cell(row[key]): row for row in rows}
     found = [of[cell(value)] for value in values[key]]
     place = range(len(found))
@@ -91,14 +90,13 @@ def _numbers(values):
     return all(isinstance(value, int | float) and not isinstance(value, bool) for value in values)
 
 
-def _maps(plt, rows, varied, values):
+def _maps(rows, varied, values):
     """Maps over the first two keys, one for every combination of the others: the third in columns, the rest in rows."""
     x, y, *others = varied
     across, down = others[:1], others[1:]
     columns, lines = ([dict(zip(keys, point)) for point in product(*(values[key] for key in keys))] for keys in (across, down))
-    figure, axes = plt.subplots(
-        len(lines), len(columns), figsize=(WIDTH, 0.8 + len(lines) * (0.9 + 0.5 * min(len(values[y]), 12))),
-        layout="constrained", squeeze=False,
+    figure, axes = subplots(
+        len(lines), len(columns), figsize=(WIDTH, 0.8 + len(lines) * (0.9 + 0.5 * min(len(values[y]), 12))), squeeze=False,
     )  # fmt: skip
     of = {tuple(cell(row[key]) for key in varied): row for row in rows}
     known = [row[EXTENSION] for row in rows if math.isfinite(row[EXTENSION])]

@@ -95,7 +95,7 @@ class Recorder:
 
     def sample(self) -> None:
         """Takes a sample now, in the place of one of the same time."""
-        with self.wheel._calls.lock:
+        with self.wheel._calls, self.wheel._calls.lock:
             time, values = self.wheel.time, [reader() for reader in self._readers]
             if self._patch:
                 values.append(self._patch())
@@ -103,12 +103,13 @@ class Recorder:
             self._samples[len(self._samples) - bool(same) :] = [(time, values)]
             self.listen()
 
-    def rewind(self) -> None:
-        """Drops steps, samples and warnings from after the present time of the wheel."""
-        self._warnings = [(heard, warning) for heard, warning in self._warnings if heard <= self.wheel.time]
-        while self._steps and self._steps[-1] > self.wheel.time:
+    def rewind(self, time: float) -> None:
+        """Drops steps, samples and warnings from after a time [s]."""
+        while self._warnings and self._warnings[-1][0] > time:
+            self._warnings.pop()
+        while self._steps and self._steps[-1] > time:
             self._steps.pop()
-        while self._samples and self._samples[-1][0] > self.wheel.time:
+        while self._samples and self._samples[-1][0] > time:
             self._samples.pop()
 
     def listen(self) -> None:
@@ -128,7 +129,7 @@ class Recorder:
         `parameters` that differ from the preset, `warnings`; the last three of lists and values as JSON.
         """
         xarray = library("xarray")
-        with self.wheel._calls.lock:
+        with self.wheel._calls, self.wheel._calls.lock:
             self.wheel._tell()
             self.listen()
             times, samples = zip(*self._samples)
@@ -177,7 +178,7 @@ def _patch_reader(wheel):
     quantities = OF_PATCH if lateral else OF_PATCH[:-2]
     points = [wheel.fmu.variable(point) for quantity in quantities for point in wheel.fmu.points(quantity)]
     reader, lines = _reader(wheel, "Real", points), wheel.lines()
-    show = lambda line: wheel._call(wheel.slave.setInteger, number, [line])
+    show = lambda line: wheel._calls(wheel.slave.setInteger, number, [line])
 
     def read():
         shown, found = wheel.get(SHOWN), []
@@ -232,6 +233,7 @@ def celsius(record: Record) -> Record:
 def save(run: xarray.Dataset, path: str | Path) -> Path:
     """Writes a record: all of it as NetCDF (`.nc`), or what `table` gives of it as Parquet (`.parquet`)."""
     path, _ = _kind_of_file(path), _checked(run, "save")
+    place = path.absolute()  # the process may go elsewhere meanwhile
     library("h5netcdf" if path.suffix == ".nc" else "pyarrow")
     made = BytesIO()
     # In memory: a file that HDF5 cannot finish takes Python down with it.
@@ -239,7 +241,7 @@ def save(run: xarray.Dataset, path: str | Path) -> Path:
         run.to_netcdf(made, engine="h5netcdf")
     else:
         table(run).to_parquet(made, engine="pyarrow")
-    output.write(path, made.getbuffer())
+    output.write(place, made.getbuffer())
     return path
 
 
@@ -369,7 +371,7 @@ def _reader(wheel, sort, variables):
     reader = wheel.slave.reader(sort, references)
 
     def read():
-        return wheel._call(reader)
+        return wheel._calls(reader)
 
     read.references = references
     return read

@@ -16,7 +16,7 @@ from .courses import HEIGHT, RATE, courses_of, parts
 from .fmu import Fmu, Wheel
 from .samples import of_arrow
 from .times import at
-from .units import TIMES, agreed, beside, converted, headed
+from .units import TIMES, beside, converted, headed
 from .values import check_names, short
 from .warn import warn
 
@@ -137,8 +137,7 @@ def _by_name(inputs):
     if times is None:
         return columns
     over, unit = beside(inputs[times])
-    unit = agreed("time", (headed(times)[1], unit)) or "s"
-    return {name: column.set_axis(over.array).rename_axis(f"time [{unit}]") for name, column in columns.items()}
+    return {name: column.set_axis(over.array).rename_axis(f"time [{unit or 's'}]") for name, column in columns.items()}
 
 
 def _seconds(name, value, range_, zero=False):

@@ -82,7 +82,7 @@ def wheelset_values(scenario, fmu):
 
 def preset_values(fmu, preset):
     """Parameters of a preset, by name: type and value, as masters write it."""
-    calls = Calls([])
+    calls = Calls(preset)
     slave = instance(fmu, preset, calls)
     try:
         calls(slave.setupExperiment, startTime=0.0)

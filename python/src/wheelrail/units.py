@@ -201,9 +201,19 @@ def named(text: Any, known: Container[str]) -> tuple[Any, str | None]:
 
 
 def behind(name: Any) -> str | None:
-    """The unit behind the name of a column or an index, None without."""
+    """The unit behind the name of a column or an index, None without: in square brackets whatever it is, by other marks what is one,
+    for names may have these, too: `left/right`, `force (mean)`. A letter that only pint knows is none there: `L/V`."""
     unit = headed(name)[1]
-    return None if not unit or unit.isdecimal() else unit  # numbers are those of points
+    if not unit or unit.isdecimal():  # numbers are those of points
+        return None
+    if not name.rstrip().endswith("]"):
+        try:
+            unit_of(unit)
+        except UnitError:
+            return None
+        if len(unit) == 1 and unit not in (*BASES, *DERIVED, *SYMBOLS):
+            return None
+    return unit
 
 
 def noted(attrs: Any, name: Any = None) -> str | None:

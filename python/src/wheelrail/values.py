@@ -43,10 +43,10 @@ def check_names(values: object, call: str) -> None:
         raise ValueError(f"{call}({short(values)}): expected names and values, such as {{'drive.load': 8e4}}")
 
 
-def to_fmu(variable: ScalarVariable, value: object, unit: str | None = None, rate: bool = False) -> float | int | str:
-    """A value as the variable wants it, of a number in a `unit`, or with one beside it; `rate` is its change in a second."""
+def to_fmu(variable: ScalarVariable, value: object, unit: str | None = None, change: str | None = None) -> float | int | str:
+    """A value as the variable wants it, of a number in a `unit`, or with one beside it; a `change` is a difference, with "/s" a rate."""
     name, own = variable.name, variable.unit or ""
-    expected = f"{own or 1}/s" if rate else own
+    expected = f"{own or 1}{change}" if change else own
     value, brought = beside(value)
     if getattr(value, "shape", None) == ():
         value = value.item()
@@ -62,8 +62,8 @@ def to_fmu(variable: ScalarVariable, value: object, unit: str | None = None, rat
     if not isinstance(value, Real):
         raise Refused(f"{name} = {short(value)} is not {NUMBERS.get(variable.type, 'a number' + (f' [{expected}]' if expected else ''))}")
     try:
-        relative = rate or bool(getattr(variable.declaredType, "relativeQuantity", None))  # fmpy misses that of a variable itself
-        value = converted(name, value, agreed(name, (unit, brought)), expected, relative, "" if rate else variable.displayUnit or "")
+        relative = change is not None or bool(getattr(variable.declaredType, "relativeQuantity", None))  # fmpy misses that of a variable itself
+        value = converted(name, value, agreed(name, (unit, brought)), expected, relative, "" if change else variable.displayUnit or "")
     except UnitError as error:
         raise Refused(str(error)) from None
     if variable.type == "Real":

@@ -36,15 +36,17 @@ fn stamp(place: &Path) -> Option<(u64, Option<SystemTime>)> {
 
 /// A file that is to be written by one wheel alone, until the claim is dropped.
 pub(super) struct Claim {
+    /// The path as it was given: where it is relative, the working directory may have changed since.
+    pub name: String,
     place: PathBuf,
     owner: String,
     found: Option<(u64, Option<SystemTime>)>,
 }
 
 impl Claim {
-    /// Takes a file for `owner`, with the name of another wheel that wrote it last, if one did; the error is the name
-    /// of the one that owns it now.
-    pub fn take(place: PathBuf, owner: &str) -> Result<(Self, Option<String>), String> {
+    /// Takes the file at `place`, given as `name`, for `owner`, with the name of another wheel that wrote it last, if one
+    /// did; the error is the name of the one that owns it now.
+    pub fn take(name: &str, place: PathBuf, owner: &str) -> Result<(Self, Option<String>), String> {
         let mut files = files();
         let known = files.iter().position(|entry| same(&entry.place, &place));
         let index = known.unwrap_or_else(|| {
@@ -58,7 +60,7 @@ impl Claim {
         entry.owner = Some(owner.to_owned());
         let found = stamp(&place);
         let writer = entry.writer.clone().filter(|writer| writer != owner && found.is_some());
-        Ok((Self { place, owner: owner.to_owned(), found }, writer))
+        Ok((Self { name: name.to_owned(), place, owner: owner.to_owned(), found }, writer))
     }
 
     /// The file.

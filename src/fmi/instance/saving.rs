@@ -16,7 +16,7 @@ fn refused(config: &Config, why: &str) -> CallError {
 }
 
 /// Place to which the profile of the wheel is to be written, if anywhere; refuses one that could not be written or read
-/// again. A relative path begins in the working directory; what a link leads to is written, not the link.
+/// again. A relative path begins in the present working directory; what a link leads to is written, not the link.
 fn file_to_save(config: &Config) -> Outcome<Option<PathBuf>> {
     let name = config.files.profile_save.trim();
     if name.is_empty() {
@@ -35,19 +35,24 @@ fn file_to_save(config: &Config) -> Outcome<Option<PathBuf>> {
 }
 
 /// Takes the file to which `config` wants the profile of the wheel written for this wheel alone, after a trial that
-/// does not touch it. Two wheels of a process do not write the same file, and who is going to replace what another
+/// does not touch it; a file that it has stays its own wherever the process goes meanwhile. Two wheels of a process do not write the same file, and who is going to replace what another
 /// one has written hears of it.
 pub(super) fn claim_file(held: &mut Option<Claim>, config: &Config, life: &Life) -> Outcome {
+    let name = &config.files.profile_save;
+    if held.as_ref().is_some_and(|claim| claim.name == *name) {
+        return Ok(());
+    }
     let Some(place) = file_to_save(config)? else {
         *held = None;
         return Ok(());
     };
-    if held.as_ref().is_some_and(|claim| claim.holds(&place)) {
+    if let Some(claim) = held.as_mut().filter(|claim| claim.holds(&place)) {
+        claim.name.clone_from(name);
         return Ok(());
     }
     drop(NewFile::create(&place).map_err(|error| cannot(config, &error))?);
     let file = place.display().to_string();
-    let (claim, writer) = Claim::take(place, life.name()).map_err(|other| {
+    let (claim, writer) = Claim::take(name, place, life.name()).map_err(|other| {
         let why = format!(
             "is {file}, to which wheel \"{other}\" of this process saves its profile; give each wheel a path of its \
              own, or free that one before this one is initialized"

@@ -28,17 +28,20 @@ __all__ = ["BadFile", "Run", "drawable", "of_file", "of_stops", "write"]
 
 def write(path: str | Path, dataset: xarray.Dataset | Run) -> Path:
     """Writes the page of a run, an xarray Dataset or a `Run`; returns its path."""
-    return _save(path, run_page(dataset if isinstance(dataset, Run) else of_dataset(dataset), _now()))
+    place = Path(path).absolute()  # the process may go elsewhere meanwhile
+    output.write(place, run_page(dataset if isinstance(dataset, Run) else of_dataset(dataset), _now()))
+    return Path(path)
 
 
 def of_stops(path: str | Path, stops: Mapping[str, Any], title: str = "A train brakes", about: Sequence[tuple[str, str]] = ()) -> Path:
     """Writes the page of stops side by side: name to the table of `train.Stop.run` or (table, rail map), or to a `stops.Stop`.
     `about` has rows of texts on the scenario, name and value. Returns the path."""
-    found = {
+    place, found = Path(path).absolute(), {
         name: stop if isinstance(stop, Stop) else of_table(stop[0] if isinstance(stop, tuple) else stop)
         for name, stop in stops.items()
     }
-    return _save(path, stops_page(title, found, about, _now()))
+    output.write(place, stops_page(title, found, about, _now()))
+    return Path(path)
 
 
 def of_file(source: str | Path, out: str | Path | None = None, fmu: str | Path | None = None) -> Path:
@@ -47,12 +50,6 @@ def of_file(source: str | Path, out: str | Path | None = None, fmu: str | Path |
     found = sources.read(source, fmu)
     out = Path(out) if out else (source / "report.html" if source.is_dir() else source.with_suffix(".html"))
     return write(out, found) if isinstance(found, Run) else of_stops(out, found, source.stem.replace("_", " "))
-
-
-def _save(path, text):
-    """Writes a page, its directory too."""
-    output.write(path, text)
-    return Path(path)
 
 
 def _now():
