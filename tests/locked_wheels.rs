@@ -162,8 +162,8 @@ fn a_slow_slide_on_yielding_steel_does_not_alternate_from_step_to_step() {
     for h in [2.5e-4, 1e-4] {
         let (seen, residual) = slow_slide(5.0, 0.0, h, [0.3, 0.15]);
         let [force, temperature] = [alternating(&seen, 0, 1.0), alternating(&seen, 1, 0.1)];
-        common::figure(&format!("locked.slow.{}", (1e6 * h).round()), &[force, temperature]);
-        common::figure(&format!("locked.slow.missing.{}", (1e6 * h).round()), &[residual]);
+        common::round_off(&format!("locked.slow.{}", (1e6 * h).round()), &[force, temperature], 0.2);
+        common::round_off(&format!("locked.slow.missing.{}", (1e6 * h).round()), &[residual], 0.05);
         println!(
             "steps of {h} s: force alternates in {force:.3}, temperature in {temperature:.3} of them, audit {residual:.1e}"
         );
@@ -179,12 +179,12 @@ fn a_slow_slide_whose_film_comes_and_goes_is_the_same_in_all_communication_steps
         let (seen, residual) = slow_slide(5.0, 2e-3, h, [0.2, 0.1]);
         let means = [0, 1].map(|k| seen.iter().map(|seen| seen[k]).sum::<f64>() / seen.len() as f64);
         println!("communication steps of {h} s: mean force and temperature {means:.0?}, audit {residual:.1e}");
-        common::figure(&format!("locked.film.missing.{}", (1e6 * h).round()), &[residual]);
+        common::round_off(&format!("locked.film.missing.{}", (1e6 * h).round()), &[residual], missing);
         assert!(residual.abs() < missing);
         means
     });
     let [force, temperature] = [0, 1].map(|k| differ(means[0][k], means[1][k]));
-    common::figure("locked.film", &[force, temperature]);
+    common::round_off("locked.film", &[force, temperature], 0.04);
     assert!(force < 0.04 && temperature < 0.01);
 }
 
@@ -199,7 +199,7 @@ fn stick_slip_of_a_hot_slow_slide_is_the_same_in_all_communication_steps() {
         assert!(residual.abs() < 0.03);
         mean
     });
-    common::figure("locked.stick.slip", &[means[0] / means[1] - 1.0]);
+    common::round_off("locked.stick.slip", &[means[0] / means[1] - 1.0], 0.04);
     assert!(differ(means[0], means[1]) < 0.04, "{means:?}");
 }
 

@@ -112,8 +112,8 @@ fn a_locking_dry_wheel_converges_with_the_tolerance() {
     let found = runs.map(|(tolerance, h)| (tolerance, h, braked(tolerance, h)));
     let [_, _, (_, _, finest), _] = found;
     let off = found.map(|(_, _, [force, highest])| [force / finest[0] - 1.0, highest / finest[1] - 1.0]);
-    figure("film.tolerance", &[off[0][0], off[1][0], off[3][0]]);
-    figure("film.tolerance.temperature", &[off.iter().map(|[_, b]| b.abs()).fold(0.0, f64::max)]);
+    round_off("film.tolerance", &[off[0][0], off[1][0], off[3][0]], 0.01);
+    round_off("film.tolerance.temperature", &[off.iter().map(|[_, b]| b.abs()).fold(0.0, f64::max)], 0.01);
     for (tolerance, h, [force, highest]) in found {
         let [a, b] = [force / finest[0] - 1.0, highest / finest[1] - 1.0];
         println!("tolerance {tolerance}, steps of {h} s: {force:.0} N, {highest:.0} K, {a:+.4} and {b:+.4} off");

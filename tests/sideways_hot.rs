@@ -122,10 +122,8 @@ fn a_flat_is_run_over_as_in_one_direction() {
 fn a_surface_that_melts_slides_as_in_one_direction() {
     let melting = |config: &mut Config| (config.material.latent_heat, config.initial.velocity) = (2.7e5, 40.0);
     let [along, both] = [false, true].map(|lateral| locked(&hot(lateral, melting), 0.0).0);
-    figure(
-        "sideways.melting",
-        &[both.contact_force_x / along.contact_force_x - 1.0, both.temperature_rail_max - along.temperature_rail_max],
-    );
+    round_off("sideways.melting.force", &[both.contact_force_x / along.contact_force_x - 1.0], 5e-3);
+    round_off("sideways.melting.heat [K]", &[both.temperature_rail_max - along.temperature_rail_max], 5.0);
     println!(
         "{} N at {} K, {} N at {} K",
         along.contact_force_x, along.temperature_rail_max, both.contact_force_x, both.temperature_rail_max

@@ -71,7 +71,7 @@ pub fn figure(name: &str, values: &[f64]) {
     println!("figure: {name} = {}", listed(values));
 }
 
-/// Prints figures of errors that are round-off: all below `least` are equally good.
+/// Prints figures of errors that are round-off, or that it decides by way of stick-slip: all below `least` are equally good.
 pub fn round_off(name: &str, values: &[f64], least: f64) {
     println!("figure: {name} = {} < {least:e}", listed(values));
 }
