@@ -82,6 +82,17 @@ fn all_friction_acts_in_every_step_that_ends_on_solid_steel() {
     }
 }
 
+/// A node bears the mean of the film within its reach, and its heat goes to the places that the film leaves: all of it.
+#[test]
+fn friction_under_a_film_becomes_heat_to_the_last_joule() {
+    let seen = locked("railway_dry", 10, (0.5, 0.06), 0.5, 0.06).0;
+    let molten = seen.iter().filter(|o| o.molten > 0.5);
+    let off = molten.clone().map(|o| ((o.heat_to_wheel + o.heat_to_rail) / o.friction_power - 1.0).abs());
+    let worst = off.fold(0.0, f64::max);
+    round_off("film.heat", &[worst], 1e-12);
+    assert!(molten.count() > 10 && worst < 1e-10);
+}
+
 /// Wheel of a dry preset whose brake grows to 40 kN m within 50 ms under a load that swings, for 100 ms: force along the track \[N]
 /// and highest temperature \[K] at the end.
 fn braked(tolerance: f64, h: f64) -> [f64; 2] {
