@@ -5,7 +5,7 @@
 
 import wheelrail
 from steps import Trial
-from wheelrail import page, paraview
+from wheelrail import page, paraview, plots
 
 trial = Trial("wheel damage")
 START, SLIDE = {"initial.velocity": 20.0}, {"brake.torque": ([0.0, 0.02], [0.0, 30e3])}
@@ -22,14 +22,10 @@ def frame(out):
 
 @trial.step("temperature over patch and time, as a picture", "read point by point, drawn by hand")
 def patch(out):
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
+    picture, axes = plots.subplots(figsize=(6.4, 4.8))
     run = wheelrail.simulate(START, SLIDE, stop=0.15, profiles=True, depth=True, progress=False)
-    wheelrail.celsius(run["profile.temperature_wheel"]).plot(x="time", y="x")
-    plt.savefig(out / "patch.png", bbox_inches="tight")
+    wheelrail.celsius(run["profile.temperature_wheel"]).plot(x="time", y="x", ax=axes)
+    picture.savefig(out / "patch.png", bbox_inches="tight")
     kept["run"] = run
     hottest = float(run["profile.temperature_wheel"].max()) - 273.15
     assert hottest > 300.0 and (out / "patch.png").stat().st_size > 5000
