@@ -112,7 +112,7 @@ fn simulate(config: &Config, random: &mut Random) -> Result<Outcome, String> {
         let dt = random.logarithmic(1e-6, 1e-2);
         if random.below(8) == 0 {
             let other = config.thermal.reference + random.of(&[0.0, -100.0, -30.0, 30.0, 100.0]);
-            inputs.drive.temperature = other.max(1.0);
+            inputs.drive.temperature = other.clamp(1.0, 1e4);
             bounds.join(inputs.drive.temperature);
         }
         let radius = config.wheel.radius;
