@@ -261,7 +261,7 @@ import wheelrail.instances, wheelrail.opened, wheelrail.records
 FILES = {module.__file__ for module in (wheelrail.instances, wheelrail.opened, wheelrail.records)}
 
 def interrupted(call, line):
-    "Whether Ctrl-C came before the line of that number of the call."
+    "True if Ctrl-C came before the line of that number of the call."
     def count(frame, event, _):
         nonlocal line
         if frame.f_code.co_filename in FILES and event in ("line", "return"):

@@ -1,7 +1,7 @@
 //! Default values of steel, friction, heat, damping and damage, and those of the presets, beside the sources that they
 //! are from. Every value that differs is told by its name; a parameter of these groups without a source is refused.
 //!
-//! What is published as a formula is computed from it; standards are quoted from memory. A value called *chosen* has no
+//! Values that are published as a formula are computed from it; standards are quoted from memory. A value called *chosen* has no
 //! source but the page that says so.
 
 mod common;
