@@ -22,11 +22,10 @@ fn grid(shift: f64) -> ContactGrid {
 
 /// The traction of these nodal forces; closed where they press, stuck where they stay below the friction limit.
 fn traction(grid: &ContactGrid, normal: impl Fn(f64) -> f64, tangential: impl Fn(f64) -> f64) -> Traction {
-    let (n, ports) = (grid.len(), DVector::zeros(grid.ports()));
-    let mut state =
-        GridState { status: vec![NodeStatus::Open; n], slip: vec![0.0; n], gap: vec![0.0; n], ..Default::default() };
-    let surface = [ports.clone(), ports.clone()];
-    let mut traction = Traction { port_forces: ports, surface, ..Traction::default() };
+    let (n, forces) = (grid.len(), DVector::zeros(grid.components()));
+    let (status, zeros) = (vec![NodeStatus::Open; n], vec![0.0; n]);
+    let mut state = GridState { status, slip: zeros.clone(), gap: zeros, forces, ..Default::default() };
+    let mut traction = Traction::default();
     for (i, &x) in grid.x.iter().enumerate() {
         let (n, t) = (normal(x), tangential(x));
         if n <= 0.0 {
@@ -34,8 +33,8 @@ fn traction(grid: &ContactGrid, normal: impl Fn(f64) -> f64, tangential: impl Fn
         }
         let slips = t.abs() >= FRICTION * n * (1.0 - 1e-9);
         state.status[i] = if slips { NodeStatus::SlipForward } else { NodeStatus::Stick };
-        traction.port_forces[grid.port(i)] = t;
-        traction.port_forces[grid.port(i) + 1] = n;
+        state.forces[grid.component(i)] = t;
+        state.forces[grid.component(i) + 1] = n;
     }
     traction.friction.coefficient = FRICTION;
     read_off(grid, [0.0, f64::INFINITY], &state, [&vec![0.0; n], &[]], &mut traction);

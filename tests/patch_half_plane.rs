@@ -3,7 +3,7 @@
 mod common;
 mod rigid_bodies;
 
-use rigid_bodies::{RigidBodies, SMOOTH, Step};
+use rigid_bodies::{RigidBodies, Step};
 use wheelrail::analytic::{
     HalfPlane, carter_force, carter_full_slip, contact_modulus, hertz_half_width, hertz_peak_pressure,
 };
@@ -39,7 +39,7 @@ impl HalfPlanes {
         };
         let line =
             LineLayout { share: 1.0, kernel: LineKernel::of_half_plane(half_plane, 1.0), ..LineLayout::default() };
-        Self { solver: SeriesSolver::new(0.02), line, bodies: RigidBodies::new(SMOOTH) }
+        Self { solver: SeriesSolver::new(0.02), line, bodies: RigidBodies::new() }
     }
 
     /// Rolling at mean speed `speed` with prescribed creepage, in a step with the time formula `time`.
@@ -54,7 +54,7 @@ impl HalfPlanes {
         let motion = [speed * (1.0 + 0.5 * creepage), omega, 0.0].map(|value| RigidMotion::held(value, 0.0));
         let step = Step {
             radius: RADIUS,
-            lines: (&[self.line], None),
+            lines: &[self.line],
             flexibility: None,
             load: [load, LOAD],
             motion,

@@ -46,6 +46,13 @@ impl LineKernel {
         Self { tangential: along, normal: along, lateral: Logarithm::default(), coupling: half_plane.coupling }
     }
 
+    /// That of which a `share` answers at once.
+    pub fn at_once(self, share: f64) -> Self {
+        let scaled = |along: Logarithm| Logarithm { factor: share * along.factor, ..along };
+        let Self { tangential, normal, lateral, coupling } = self;
+        Self { tangential: scaled(tangential), normal: scaled(normal), lateral, coupling: share * coupling }
+    }
+
     /// True if all numbers are finite.
     pub fn is_sound(&self) -> bool {
         let Self { tangential, normal, lateral, coupling } = self;

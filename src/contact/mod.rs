@@ -36,5 +36,5 @@ pub use problem::{
     AxisDrive, Begin, ContactProblem, Influence, LayoutsOfLoad, LineProblem, OneLine, RetardedSurface, RigidMotion,
     Spin, SurfaceResponse,
 };
-pub use solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
+pub use solver::{ContactScratch, ContactSolver, ContactState, SolverState};
 pub use traction::{SolvedFriction, Traction, Yielding};

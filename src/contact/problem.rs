@@ -16,31 +16,29 @@ use crate::piecewise::Piecewise;
 use crate::surface::{Placement, Surfaces};
 use nalgebra::{DMatrix, DVector};
 
-/// Displacements by nodal forces.
+/// Displacements of the ports by forces there.
 #[derive(Clone, Copy)]
 pub struct Influence<'a> {
-    /// Displacement of wheel and rail per unit nodal force on this body [m/(N/m)].
+    /// Displacement of wheel and rail per unit force on this body [m/(N/m)].
     pub compliance: [&'a DMatrix<f64>; 2],
     /// Sum of both [m/(N/m)].
     pub relative: &'a DMatrix<f64>,
 }
 
-/// Linear answer of both bodies at their surfaces; the ports are the surface displacements x, y of every node.
+/// Linear answer of both bodies, less half-planes, at their surfaces; the ports are the displacements x, y of the points of
+/// a polynomial, and forces act on them by their moments with these polynomials.
 #[derive(Clone, Copy)]
 pub struct SurfaceResponse<'a> {
     /// Displacements by the forces of all lines, each weighted with its share of the width.
     pub shared: Influence<'a>,
-    /// Logarithms of the distances of all nodes ([`crate::contact::line::kernel::logarithms`]), where a line has a
-    /// flexibility for itself besides; `None`: it has none, or its solver knows it.
-    pub alone: Option<&'a DMatrix<f64>>,
     /// Height by which the wheel would be displaced more under the normal force of all lines if what the bodies lack
     /// were the same along and normal to the surface [m/(N/m)]: lever arms do not see what has no direction of its own.
     pub lift: f64,
     /// Displacement of wheel and rail without contact forces and rigid accelerations \[m].
     pub free: [&'a DVector<f64>; 2],
-    /// Displacement of the wheel surface per unit rigid acceleration, a column for each axis.
+    /// Displacement of the wheel's ports per unit rigid acceleration, a column for each axis.
     pub inertial: &'a DMatrix<f64>,
-    /// Rate of deformation momentum per unit nodal force, a row for each axis.
+    /// Rate of deformation momentum per unit force, a row for each axis.
     pub momentum: &'a DMatrix<f64>,
     /// Rate of deformation momentum per unit rigid acceleration, axis by axis.
     pub deformation_inertia: &'a DMatrix<f64>,
@@ -56,15 +54,17 @@ impl SurfaceResponse<'_> {
 }
 
 /// Retarded layer at the surface of a body: its displacement belongs to the elastic part `share · force + known` of the
-/// nodal forces, ahead of which the forces themselves run.
+/// forces, ahead of which the forces themselves run. The flexibility of lines is retarded likewise.
 #[derive(Clone, Copy)]
 pub struct RetardedSurface<'a> {
-    /// Displacement per unit elastic nodal force [m/(N/m)].
+    /// Displacement per unit elastic force [m/(N/m)].
     pub flexibility: &'a DMatrix<f64>,
     /// Part of a new force that counts at once \[1].
     pub share: f64,
-    /// Elastic nodal forces on this body without new forces [N/m].
+    /// Elastic forces on this body without new forces [N/m].
     pub known: &'a DVector<f64>,
+    /// Relaxation time \[s].
+    pub time: f64,
 }
 
 /// Drive of a rigid motion of the wheel.
@@ -191,16 +191,9 @@ pub struct LineProblem<'a> {
 }
 
 impl LineProblem<'_> {
-    /// Displacement of both surfaces at the port `at` per unit nodal force of the line itself at the port `by`
-    /// [m/(N/m)].
-    pub fn compliance(&self, at: usize, by: usize) -> f64 {
-        let shared = self.share * self.bodies.shared.relative[(at, by)];
-        match self.bodies.alone {
-            Some(logarithms) if at % 2 == by % 2 => {
-                shared + 2.0 * self.kernel.along(at % 2).displacement(logarithms[(at / 2, by / 2)])
-            }
-            _ => shared,
-        }
+    /// Flexibility that the line has for itself, as far as it answers at once.
+    pub fn kernel_at_once(&self) -> LineKernel {
+        self.bodies.retarded[0].map_or(self.kernel, |layer| self.kernel.at_once(layer.share))
     }
 
     /// True if its tractions and slips have a lateral part.

@@ -50,9 +50,8 @@ pub trait ContactSolver: Send + Sync {
         None
     }
 
-    /// The lines of a contact on nodes that the solver prefers to theirs, if the contact under about the load
-    /// `nominal_load` [N/m] fits on them; all are on the same ones.
-    fn on_preferred_nodes(&self, _lines: &[&ContactState], _nominal_load: f64) -> Option<Vec<ContactState>> {
+    /// The lines of a contact on nodes that the solver prefers to theirs, if the contact fits on them; all are on the same ones.
+    fn on_preferred_nodes(&self, _lines: &[&ContactState]) -> Option<Vec<ContactState>> {
         None
     }
 
@@ -62,29 +61,17 @@ pub trait ContactSolver: Send + Sync {
     }
 }
 
-/// Surface points through which the bodies and the contact of a state see each other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Ports {
-    /// Nodes of the zone of ordinary patches.
-    #[default]
-    Narrow,
-    /// Nodes of a zone for wide patches about the same middle.
-    Wide,
-    /// Points of polynomials on bodies that lack a half-plane each.
-    Smooth,
-}
-
 /// Result of a contact solution and start of the next one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ContactState {
-    /// Ports to which the vectors of the traction belong.
-    pub ports: Ports,
     /// Forces, motions and profiles.
     pub traction: Traction,
     /// History that the next step refers to.
     pub history: LineHistory,
-    /// Elastic energy of the contact that neither the bodies nor their corrections count [J/m].
+    /// Elastic energy of the flexibility that lines have for themselves [J/m].
     pub energy: f64,
+    /// Power that this flexibility takes where it is retarded [W/m].
+    pub damping: f64,
     /// Memory of the solver.
     pub solver: SolverState,
     /// Memory of the choice between kinds of nodes.
@@ -117,6 +104,11 @@ impl SolverState {
 }
 
 impl ContactState {
+    /// True if it is on points that move with the patch.
+    pub fn on_points(&self) -> bool {
+        matches!(self.solver, SolverState::Series(_))
+    }
+
     /// Takes away all slip and its dissipation: the state of a wheel at rest.
     pub fn rest(&mut self) {
         self.traction.rest();

@@ -1,6 +1,7 @@
 //! Result of a solved contact for everyone else: forces, patches and profiles, whatever solver found them.
 
 use crate::axes::PerAxis;
+use crate::linalg::POINTS;
 use crate::piecewise::{Interval, Piecewise};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
@@ -14,8 +15,8 @@ const ENDING: f64 = 0.2;
 /// the patches.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Traction {
-    /// Forces on the ports of the wheel (the surface displacements of its body, x and y of every node) [N/m]; the ports
-    /// of the rail receive the opposite.
+    /// Forces on the ports of the wheel, moments of the contact forces with the polynomials of the bodies, x and y of every
+    /// point [N/m]; the ports of the rail receive the opposite.
     pub port_forces: DVector<f64>,
     /// All forces on the ports of wheel and rail: contact forces, and the pull of hot layers [N/m].
     pub loads: [DVector<f64>; 2],
@@ -55,6 +56,8 @@ pub struct Traction {
     pub spin_moment: f64,
     /// Friction coefficient and the heat of friction.
     pub friction: SolvedFriction,
+    /// Work of the pull of hot layers on the way of the surfaces in the step, with the mean of its values at both ends [J/m].
+    pub pull_work: f64,
     /// Yielding of the steel.
     pub yielding: Yielding,
     /// Share of the contact length on which a molten film takes friction away \[1].
@@ -128,6 +131,19 @@ impl SolvedFriction {
 }
 
 impl Traction {
+    /// That of surfaces which touch without forces.
+    pub fn without_forces() -> Self {
+        let ports = || DVector::zeros(2 * POINTS);
+        let [loads, surface] = [(); 2].map(|()| [ports(), ports()]);
+        Self { port_forces: ports(), loads, surface, ..Self::default() }
+    }
+
+    /// True if it has the ports of the bodies and finite forces there.
+    pub fn fits(&self) -> bool {
+        let vectors = self.loads.iter().chain(&self.surface).chain([&self.port_forces]);
+        vectors.into_iter().all(|values| values.len() == 2 * POINTS) && self.port_forces.iter().all(|f| f.is_finite())
+    }
+
     /// From the beginning of the first patch to the end of the last one; `None` without contact.
     pub fn extent(&self) -> Option<Interval> {
         hull(&self.patches)
@@ -163,14 +179,10 @@ impl Traction {
         self.pressure.segments().map(|(x, p)| 0.5 * (x[1] - x[0]) * (p[0] + p[1]) * of(0.5 * (x[0] + x[1]))).sum()
     }
 
-    /// Work of the pull of hot layers on the way of the surfaces since the traction `before`, with the mean of both
-    /// pulls [J/m]; 0 where another solver has taken over, on other ports.
-    pub fn pull_work(&self, before: &Self) -> f64 {
+    /// Work of the pull of hot layers on the way of the ports since the traction `before`, with the mean of both pulls [J/m].
+    pub fn work_of_pulls_since(&self, before: &Self) -> f64 {
         let of_body = |body: usize| {
             let (now, then, sign) = (&self.surface[body], &before.surface[body], [1.0, -1.0][body]);
-            if now.len() != then.len() {
-                return 0.0;
-            }
             let pull = |traction: &Self, port: usize| traction.loads[body][port] - sign * traction.port_forces[port];
             let mean = |port: usize| 0.5 * (pull(self, port) + pull(before, port));
             (0..now.len()).map(|port| mean(port) * (now[port] - then[port])).sum::<f64>()

@@ -24,7 +24,9 @@ pub fn energy(model: &RollingModel, state: &State) -> f64 {
 
 /// Power that damping and open ends take out of bodies, track and what carries the contact sideways [W/m].
 fn dissipation(model: &RollingModel, state: &State) -> f64 {
-    model.bodies.dissipation(state) + model.wheel.sideways.dissipation(&state.side)
+    model.bodies.dissipation(state)
+        + state.sum(|line| line.contact.damping)
+        + model.wheel.sideways.dissipation(&state.side)
 }
 
 /// Balance at a stationary start.
@@ -79,8 +81,7 @@ pub fn advance(model: &RollingModel, td: &TimeDerivative, state: &State, next: &
 pub fn expand(before: &State, state: &mut State) {
     let growth = (state.growth() - before.growth()) * state.resultant().height;
     let of_line = |(old, new): (&Line, &Line)| {
-        let pull = new.contact.traction.pull_work(&old.contact.traction);
-        new.layout.share * (swelling_work(old, new) + pull)
+        new.layout.share * (swelling_work(old, new) + new.contact.traction.pull_work)
     };
     let layers: f64 = before.lines.iter().zip(&state.lines).map(of_line).sum();
     state.audit.thermal_work += growth + layers;

@@ -14,7 +14,7 @@ use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
     AxisDrive, Begin, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction,
-    LayoutsOfLoad, LineLayout, LineProblem, Ports, RetardedSurface, SteelLimits, SurfaceResponse, Traction,
+    LayoutsOfLoad, LineLayout, LineProblem, RetardedSurface, SteelLimits, SurfaceResponse, Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
@@ -141,7 +141,7 @@ impl ContactModel {
         let (mut more, mut first) = (0, load);
         let mut begin = Begin::Before(if before > 0.0 && load > 0.0 { libm::cbrt(load / before) } else { 1.0 });
         for _ in 0..MOST_LAYOUTS {
-            self.patch.lay_out(load, lines::ports(start), found);
+            self.patch.lay_out(load, lines::on_points(start), found);
             let laid_out = self.solve_laid_out((step, begin), start, (found, load), scratch);
             load = laid_out.map_err(|error| self.of_patch(error, load))?;
             if more == 0 {
@@ -194,7 +194,7 @@ impl ContactModel {
         let mut after: Vec<_> = found.iter_mut().map(|line| &mut line.contact).collect();
         self.solver.solve(&problem, &before, &mut after, scratch)?;
         let load = following.now.get();
-        self.patch.lay_out(load, lines::ports(start), found);
+        self.patch.lay_out(load, lines::on_points(start), found);
         Ok(load)
     }
 
@@ -214,7 +214,7 @@ impl ContactModel {
             position: layout.position,
             kernel: layout.kernel,
             layer: self.layer,
-            patch: self.patch.flexibility(start.contact.ports).map(|patch| layout.in_patch(patch, number)),
+            patch: self.patch.flexibility(start.contact.on_points()).map(|patch| layout.in_patch(patch, number)),
             bodies: surface_response(step),
             membrane: [&membrane_force[0], &membrane_force[1]],
             time: step.time,
@@ -249,7 +249,7 @@ impl ContactModel {
         let share = if load > 0.0 { load / self.nominal_line_load() } else { 1.0 };
         let half_width = self.nominal_half_width * share.sqrt();
         // Points stand, too, where the contact has two directions.
-        let sideways = self.patch.flexibility(Ports::Smooth).is_some_and(|flexibility| flexibility.is_sideways());
+        let sideways = self.patch.flexibility(true).is_some_and(|flexibility| flexibility.is_sideways());
         match at_rest && !sideways {
             true => self.solver.touching_at_rest(half_width),
             false => self.solver.touching(half_width),
@@ -308,7 +308,7 @@ impl LayoutsOfLoad for Following<'_> {
         let next = patch.load_of(width * load);
         let missed = missed(self.now.get(), next);
         let mut lines =
-            (missed > SETTLED_LOAD && missed < LARGEST_CHANGE).then(|| patch.layouts(next, Ports::Smooth))??;
+            (missed > SETTLED_LOAD && missed < LARGEST_CHANGE).then(|| patch.layouts(next, true))??;
         lines.iter_mut().zip(self.layouts).for_each(|(line, first)| line.gap -= first.gap);
         self.now.set(next);
         Some(lines)
@@ -331,7 +331,6 @@ fn surface_response<'a>(step: &'a ContactStep) -> SurfaceResponse<'a> {
     let (operators, [wheel, rail]) = (step.operators, step.free);
     SurfaceResponse {
         shared: operators.shared(),
-        alone: operators.logarithms(),
         lift: operators.lift,
         free: [&wheel.surface, &rail.surface],
         inertial: &operators.wheel.inertial_response,
@@ -340,7 +339,7 @@ fn surface_response<'a>(step: &'a ContactStep) -> SurfaceResponse<'a> {
         retarded: [(&operators.wheel, wheel), (&operators.rail, rail)].map(|(operator, free)| {
             let layer = operator.layer.as_ref()?;
             let share = layer.share(operator.a0);
-            Some(RetardedSurface { flexibility: &layer.flexibility, share, known: &free.retarded })
+            Some(RetardedSurface { flexibility: &layer.flexibility, share, known: &free.retarded, time: layer.time })
         }),
     }
 }

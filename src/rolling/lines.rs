@@ -7,7 +7,6 @@
 use super::line::Line;
 use super::state::State;
 use crate::axes::PerAxis;
-use crate::contact::Ports;
 use nalgebra::DVector;
 use std::borrow::Cow;
 
@@ -117,9 +116,9 @@ impl State {
     }
 }
 
-/// Ports on which lines are.
-pub fn ports(lines: &[Line]) -> Ports {
-    lines.first().map_or(Ports::default(), |line| line.contact.ports)
+/// True if lines are on points that move with the patch.
+pub fn on_points(lines: &[Line]) -> bool {
+    lines.first().is_some_and(|line| line.contact.on_points())
 }
 
 /// Sum of a quantity per metre of width over lines, by their shares of the width.

@@ -4,7 +4,7 @@ use super::contact_step::ContactStep;
 use super::line::Line;
 use super::lines;
 use super::patch_lines::PatchLines;
-use crate::contact::{Ports, RigidMotion};
+use crate::contact::RigidMotion;
 
 /// Largest factor by which a load is expected to grow or fall.
 const LARGEST_RISE: f64 = 2.0;
@@ -26,7 +26,7 @@ pub fn expected(
     [before, nominal]: [f64; 2],
     width: f64,
 ) -> f64 {
-    let on_points = lines::ports(start) == Ports::Smooth;
+    let on_points = lines::on_points(start);
     let going_on = match before > 0.0 {
         true if on_points => before,
         true => (before + width * step.rise).clamp(before / LARGEST_RISE, before * LARGEST_RISE),

@@ -10,7 +10,7 @@ use super::state::State;
 use super::support::TrackSupport;
 use super::thermal::{self, ThermalModel};
 use crate::analytic;
-use crate::config::{Config, ContactMethod};
+use crate::config::{Config, ContactMethod, Response};
 use crate::contact::choice::NodeChoice;
 use crate::contact::line::ContactGrid;
 use crate::contact::series::SeriesSolver;
@@ -77,11 +77,11 @@ impl RollingModel {
 
     /// Builds the model on given bodies with given surfaces, with contact on the nodes that the configuration asks for.
     pub fn new(config: Config, bodies: Pair, surfaces: Surfaces) -> Result<Self, ModelError> {
-        let grid = |pair: &Pair| ContactGrid::new(pair.surface_x.clone(), pair.spacing, pair.candidates.start);
+        let grid = ContactGrid::new(bodies.surface_x.clone(), bodies.spacing, bodies.candidates.start).under(bodies.reach);
         let points = Self::patch_reach(&config, &bodies, &surfaces).map(SeriesSolver::new);
         let solver: Box<dyn ContactSolver> = match points {
             Some(points) if config.solver.contact.requires_patch() => Box::new(points),
-            points => Box::new(NodeChoice::new(grid(&bodies), bodies.wide.as_deref().map(grid), points)),
+            points => Box::new(NodeChoice::new(grid, points)),
         };
         Self::with_solver(config, bodies, surfaces, solver)
     }
@@ -96,8 +96,8 @@ impl RollingModel {
             ContactMethod::Auto => surfaces.is_smooth(),
             ContactMethod::Patch => true,
         };
-        let smooth = bodies.smooth.as_ref().filter(|_| sought)?;
-        (!reversible).then_some(smooth.reach)
+        let prompt = config.damping.rayleigh_stiffness == 0.0 && config.solver.response == Response::Reduced;
+        (sought && prompt && !reversible).then_some(bodies.reach)
     }
 
     /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports.
@@ -107,9 +107,8 @@ impl RollingModel {
         surfaces: Surfaces,
         solver: Box<dyn ContactSolver>,
     ) -> Result<Self, ModelError> {
-        let end = |pair: &Pair| pair.surface_x[pair.candidates.clone()].last().copied().unwrap_or(0.0);
-        let spacing = bodies.spacing;
-        let (zone, reach) = (end(&bodies), bodies.wide.as_deref().map_or(0.0, end));
+        let reach = bodies.surface_x[bodies.candidates.clone()].last().copied().unwrap_or(0.0);
+        let Pair { spacing, zone, .. } = bodies;
         let steel = Isotropic::from(&config.material);
         let shear = steel.shear_wave_speed();
         let thermal = match config.thermal.enabled {
@@ -119,9 +118,9 @@ impl RollingModel {
         Ok(Self {
             wheel: RigidWheel::new(&config),
             tread: TreadLevel::of(&surfaces),
-            bodies: match config.contact.shape.is_line() {
-                true => Bodies::new(bodies, TrackSupport::new(&config)),
-                false => Bodies::new(bodies, TrackSupport::new(&config)).with_lines(patch_lines::apart(&config)),
+            bodies: {
+                let bodies = Bodies::new(bodies.wheel, bodies.rail, TrackSupport::new(&config));
+                if config.contact.shape.is_line() { bodies } else { bodies.with_lines(patch_lines::apart(&config)) }
             },
             contact: ContactModel::new(&config, surfaces, solver, zone.max(reach))?,
             reach: zone.max(reach),

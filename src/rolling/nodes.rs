@@ -2,9 +2,8 @@
 //!
 //! A step is taken on the nodes of its start, and again on others as long as the contact solver does not find the contact
 //! on them. After it the state goes to the nodes that the solver prefers. Which nodes it is on follows from the state
-//! alone. The coordinates of the bodies are the same on all.
+//! alone.
 
-use super::bodies::ports;
 use super::error::StepError;
 use super::model::RollingModel;
 use super::state::State;
@@ -38,8 +37,7 @@ fn on_other_nodes(model: &RollingModel, state: &State) -> Option<State> {
 
 /// Takes a state to the nodes that its contact solver prefers.
 pub fn prefer(model: &RollingModel, state: &mut State) {
-    let load = model.contact.nominal_line_load();
-    if let Some(contacts) = model.contact.solver.on_preferred_nodes(&contacts(state), load) {
+    if let Some(contacts) = model.contact.solver.on_preferred_nodes(&contacts(state)) {
         place(state, contacts);
     }
 }
@@ -50,7 +48,4 @@ fn contacts(state: &State) -> Vec<&ContactState> {
 
 fn place(state: &mut State, contacts: Vec<ContactState>) {
     state.lines.iter_mut().zip(contacts).for_each(|(line, contact)| line.contact = contact);
-    let ports = ports(state);
-    state.wheel.retarded.fit_to(ports);
-    state.rail.retarded.fit_to(ports);
 }

@@ -3,7 +3,7 @@
 use super::line::Line;
 use crate::config::{Config, ContactShape, PatchRows, RowsError};
 use crate::contact::{
-    HalfSpace, LineKernel, LineLayout, Logarithm, PatchFlexibility, PatchLayout, PatchMaterial, Ports,
+    HalfSpace, LineKernel, LineLayout, Logarithm, PatchFlexibility, PatchLayout, PatchMaterial,
 };
 use crate::material::Isotropic;
 use crate::surface;
@@ -111,21 +111,18 @@ impl PatchLines {
         Self { layouts, count: shares.len(), symmetric: false, centre: 0.0, gaps: Vec::new() }
     }
 
-    /// Flexibility of the lines on given ports under each other's tangential forces, if they feel them.
-    pub fn flexibility(&self, ports: Ports) -> Option<&PatchFlexibility> {
+    /// Flexibility of the lines, `on_points` or on nodes, under each other's tangential forces, if they feel them.
+    pub fn flexibility(&self, on_points: bool) -> Option<&PatchFlexibility> {
         match &self.layouts {
             Layouts::Constant(_, flexibility) => flexibility.as_deref(),
-            Layouts::Sized { .. } => self.sized(ports).map(|patch| &**patch.flexibility()),
+            Layouts::Sized { .. } => self.sized(on_points).map(|patch| &**patch.flexibility()),
         }
     }
 
-    /// Patch on given ports whose size follows from its load.
-    fn sized(&self, ports: Ports) -> Option<&PatchLayout> {
+    /// Patch, `on_points` or on nodes, whose size follows from its load.
+    fn sized(&self, on_points: bool) -> Option<&PatchLayout> {
         let Layouts::Sized { patch, on_nodes } = &self.layouts else { return None };
-        match ports {
-            Ports::Smooth => Some(patch),
-            Ports::Narrow | Ports::Wide => Some(on_nodes),
-        }
+        Some(if on_points { patch } else { on_nodes })
     }
 
     /// Load of which lines are laid out while they carry `load` \[N]; zero where that does not matter.
@@ -152,19 +149,19 @@ impl PatchLines {
         }
     }
 
-    /// Lines on given ports under a load \[N], if that matters.
-    pub fn layouts(&self, load: f64, ports: Ports) -> Option<Vec<LineLayout>> {
-        self.sized(ports).map(|patch| patch.moving(load).collect())
+    /// Lines, `on_points` or on nodes, under a load \[N], if that matters.
+    pub fn layouts(&self, load: f64, on_points: bool) -> Option<Vec<LineLayout>> {
+        self.sized(on_points).map(|patch| patch.moving(load).collect())
     }
 
-    /// Gives lines on given ports the layout of a load \[N].
-    pub fn lay_out(&self, load: f64, ports: Ports, lines: &mut [Line]) {
+    /// Gives lines, `on_points` or on nodes, the layout of a load \[N].
+    pub fn lay_out(&self, load: f64, on_points: bool, lines: &mut [Line]) {
         match &self.layouts {
             Layouts::Constant(layouts, _) => {
                 lines.iter_mut().zip(layouts).for_each(|(line, layout)| line.layout = *layout);
             }
             Layouts::Sized { .. } => {
-                let layouts = self.layouts(load, ports).unwrap_or_default();
+                let layouts = self.layouts(load, on_points).unwrap_or_default();
                 lines.iter_mut().zip(layouts).for_each(|(line, layout)| line.layout = layout);
             }
         }
@@ -206,11 +203,11 @@ mod tests {
     /// True if the flexibility of all lines along, and across if they are sideways, is positive under a `load` \[N] with
     /// contact all over a `chord` \[m].
     fn is_positive(patch: &PatchLines, load: f64, chord: f64) -> bool {
-        let (ports, spacing) = (Ports::Wide, if chord > END { 1e-3 } else { 0.7e-3 });
+        let (on_points, spacing) = (false, if chord > END { 1e-3 } else { 0.7e-3 });
         let places: Vec<_> = (0..=(chord / spacing) as usize).map(|i| i as f64 * spacing - 0.5 * chord).collect();
         let mut lines = vec![Line::default(); patch.count];
-        patch.lay_out(load, ports, &mut lines);
-        let (alone, flexibility) = (logarithms(&places, spacing), patch.flexibility(ports).unwrap());
+        patch.lay_out(load, on_points, &mut lines);
+        let (alone, flexibility) = (logarithms(&places, spacing), patch.flexibility(on_points).unwrap());
         let in_patch: Vec<_> = lines.iter().enumerate().map(|(k, line)| line.layout.in_patch(flexibility, k)).collect();
         let powers: Vec<_> = in_patch.iter().flat_map(|line| places.iter().map(|x| line.powers(*x))).collect();
         let (nodes, directions) = (powers.len(), if flexibility.is_sideways() { 2 } else { 1 });

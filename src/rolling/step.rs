@@ -296,7 +296,7 @@ fn solve_and_commit(
     next: &mut State,
 ) -> Result<(), StepError> {
     let Plan { dt, td, of_height, drives, speeds, .. } = plan;
-    let operators = model.bodies.operators(td.a0, state, &mut workspace.operators)?;
+    let operators = model.bodies.operators(td.a0, &mut workspace.operators)?;
     let streams = [
         Convection { speed: speeds[1], acceleration: state.motion.omega.rate },
         Convection { speed: speeds[0], acceleration: state.motion.velocity.rate },

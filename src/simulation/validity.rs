@@ -4,7 +4,7 @@ mod met;
 mod texts;
 
 use super::Simulation;
-use crate::contact::{FrictionLaw, Ports};
+use crate::contact::FrictionLaw;
 use crate::material::{BOILS, INDENTATION};
 use crate::mechanics::{grid_spacing, nominal_half_width};
 
@@ -138,7 +138,7 @@ impl Simulation {
             Limit::Speed => (heat * self.speed(), AtMost(config.thermal.max_speed)),
             Limit::ThermalLoad => (heat * load, AtLeast(config.thermal.smallest_load_ratio * nominal)),
             Limit::Patch => {
-                let on_grid = self.state().lines.iter().any(|line| line.contact.ports != Ports::Smooth);
+                let on_grid = self.state().lines.iter().any(|line| !line.contact.on_points());
                 let cells = outputs.contact_half_width / self.model().rolling.spacing;
                 (if on_grid { cells } else { 0.0 }, AtLeast(FEWEST_ELEMENTS))
             }

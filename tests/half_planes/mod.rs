@@ -7,7 +7,6 @@ use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{HalfPlane, carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::active_set::ActiveSetSolver;
-use wheelrail::contact::line::kernel::logarithms;
 use wheelrail::contact::line::{ContactGrid, GridState};
 use wheelrail::contact::{
     AxisDrive, Begin, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
@@ -19,6 +18,8 @@ use wheelrail::surface::{Flattening, Placement, Profile, Surfaces};
 
 /// Radius of the cylinder [m].
 pub const RADIUS: f64 = 0.5;
+/// Displacement components at the points of the bodies.
+const PORTS: usize = 10;
 /// Rigid motions of the wheel.
 const AXES: usize = Axis::COUNT;
 /// Friction coefficient [1].
@@ -30,12 +31,9 @@ pub struct HalfPlanes {
     pub grid: ContactGrid,
     pub surfaces: Surfaces,
     solver: ActiveSetSolver,
-    /// Compliance of each half-plane, and of both.
-    half: DMatrix<f64>,
-    relative: DMatrix<f64>,
-    /// Displacement of the surfaces of wheel and rail without forces [m].
+    /// Displacement of the ports of wheel and rail without forces [m].
     pub free: [DVector<f64>; 2],
-    none: [DMatrix<f64>; 3],
+    none: [DMatrix<f64>; 4],
     /// Flexibility of the layer between the surfaces [m/Pa].
     pub layer: f64,
 }
@@ -66,27 +64,18 @@ impl HalfPlanes {
         let half = (3 * per_half_width).div_ceil(2) as i64;
         let x = (-half..=half).map(|i| i as f64 * spacing).collect();
         let grid = ContactGrid::uniform(x, spacing, 3);
-        let n = grid.ports();
-        // Relative compliance, shared equally; the constant (depth of the half-plane) is arbitrary.
-        let mut kernel = vec![10.0 / modulus()];
-        for j in 0..n {
-            kernel.push(kernel[j] - 2.0 / (std::f64::consts::PI * modulus()) / (j as f64 + 0.5));
-        }
-        let half =
-            DMatrix::from_fn(n, n, |i, j| if i % 2 == j % 2 { 0.5 * kernel[(i / 2).abs_diff(j / 2)] } else { 0.0 });
         let solver = ActiveSetSolver::new(grid.clone());
-        let none = [DMatrix::zeros(n, AXES), DMatrix::zeros(AXES, n), DMatrix::zeros(AXES, AXES)];
-        let (relative, free) = (2.0 * &half, [DVector::zeros(n), DVector::zeros(n)]);
-        Self { grid, surfaces: Surfaces::smooth(RADIUS), solver, half, relative, free, none, layer: 0.0 }
+        let of = |rows, columns| DMatrix::zeros(rows, columns);
+        let none = [of(PORTS, PORTS), of(PORTS, AXES), of(AXES, PORTS), of(AXES, AXES)];
+        let free = [DVector::zeros(PORTS), DVector::zeros(PORTS)];
+        Self { grid, surfaces: Surfaces::smooth(RADIUS), solver, free, none, layer: 0.0 }
     }
 
     /// Turns the rim by an angle about the wheel centre [rad], positive where the tread moves towards `+x`.
     pub fn turned(mut self, angle: f64) -> Self {
-        let ContactGrid { x, spacing, guard, .. } = &self.grid;
-        for node in 0..self.grid.ports() / 2 {
-            let x = x[0] + (node as f64 - *guard as f64) * spacing;
+        for (k, x) in self.grid.points.nodes().into_iter().enumerate() {
             let depth = (RADIUS * RADIUS - x * x).sqrt();
-            (self.free[0][2 * node], self.free[0][2 * node + 1]) = (angle * depth, angle * x);
+            (self.free[0][2 * k], self.free[0][2 * k + 1]) = (angle * depth, angle * x);
         }
         self
     }
@@ -101,9 +90,9 @@ impl HalfPlanes {
 
     /// Stationary rolling at mean speed 10 m/s.
     pub fn roll(&self, load: f64, creepage: f64, start: &ContactState) -> Result<ContactState, ContactError> {
-        let half_planes = Influence { compliance: [&self.half, &self.half], relative: &self.relative };
+        let rigid = Influence { compliance: [&self.none[0], &self.none[0]], relative: &self.none[0] };
         let line = SideLine { share: 1.0, lower: 0.0, friction: FRICTION };
-        let found = self.roll_on(&[line], (half_planes, None), (load, creepage), &[start])?;
+        let found = self.roll_on(&[line], (rigid, 1.0), (load, creepage), &[start])?;
         Ok(found.into_iter().next().unwrap())
     }
 
@@ -116,29 +105,21 @@ impl HalfPlanes {
         (length, shared): (f64, &dyn Fn(f64) -> f64),
         (load, creepage): (f64, f64),
     ) -> Result<Vec<ContactState>, ContactError> {
-        let (nodes, ports) = (self.grid.nodes(), self.grid.ports());
-        let logarithms = logarithms(nodes, self.grid.spacing);
-        let shared =
-            DMatrix::from_fn(
-                ports,
-                ports,
-                |i, j| {
-                    if i % 2 == j % 2 { shared(nodes[i / 2] - nodes[j / 2]) } else { 0.0 }
-                },
-            );
+        let points = self.grid.points.nodes();
+        let between = |i: usize, j: usize| if i % 2 == j % 2 { shared(points[i / 2] - points[j / 2]) } else { 0.0 };
+        let shared = DMatrix::from_fn(PORTS, PORTS, between);
         let both = 2.0 * &shared;
         let shared = Influence { compliance: [&shared, &shared], relative: &both };
         let start = self.start();
-        let alone = Some((&logarithms, length));
-        self.roll_on(lines, (shared, alone), (load, creepage), &vec![&start; lines.len()])
+        self.roll_on(lines, (shared, length), (load, creepage), &vec![&start; lines.len()])
     }
 
-    /// Rolling of lines between bodies that are displaced by the forces of all; `alone`: logarithms of the distances of
-    /// all nodes and reach of the flexibility that each has for itself.
+    /// Rolling of lines between bodies that are displaced by the forces of all; `length`: reach of the flexibility that each
+    /// line has for itself [m].
     fn roll_on(
         &self,
         lines: &[SideLine],
-        (shared, alone): (Influence, Option<(&DMatrix<f64>, f64)>),
+        (shared, length): (Influence, f64),
         (load, creepage): (f64, f64),
         start: &[&ContactState],
     ) -> Result<Vec<ContactState>, ContactError> {
@@ -155,16 +136,15 @@ impl HalfPlanes {
                 patch: None,
                 share: line.share,
                 position: 0.0,
-                kernel: kernel(alone.map_or(1.0, |(_, length)| length)),
+                kernel: kernel(length),
                 layer: self.layer,
                 bodies: SurfaceResponse {
                     shared,
-                    alone: alone.map(|(logarithms, _)| logarithms),
                     lift: 0.0,
                     free: [&self.free[0], &self.free[1]],
-                    inertial: &self.none[0],
-                    momentum: &self.none[1],
-                    deformation_inertia: &self.none[2],
+                    inertial: &self.none[1],
+                    momentum: &self.none[2],
+                    deformation_inertia: &self.none[3],
                     retarded: [None; 2],
                 },
                 membrane: [&flat, &flat],
@@ -221,12 +201,12 @@ impl HalfPlanes {
 
     /// Nodal normal force at a candidate [N/m].
     pub fn normal(&self, state: &ContactState, i: usize) -> f64 {
-        state.traction.port_forces[self.grid.port(i) + 1]
+        grid_state(state).forces[self.grid.component(i) + 1]
     }
 
     /// Nodal tangential force at a candidate [N/m].
     pub fn tangential(&self, state: &ContactState, i: usize) -> f64 {
-        state.traction.port_forces[self.grid.port(i)]
+        grid_state(state).forces[self.grid.component(i)]
     }
 }
 

@@ -4,18 +4,16 @@
 #[path = "../rigid_bodies/mod.rs"]
 mod rigid_bodies;
 
-use nalgebra::DMatrix;
-use rigid_bodies::{RigidBodies, SMOOTH, Step};
+use rigid_bodies::{RigidBodies, Step};
 use serde_json::Value as Json;
 use std::f64::consts::PI;
 use wheelrail::analytic::{HalfPlane, contact_modulus};
 use wheelrail::contact::choice::NodeChoice;
 use wheelrail::contact::line::ContactGrid;
-use wheelrail::contact::line::kernel::logarithms;
 use wheelrail::contact::series::SeriesSolver;
 use wheelrail::contact::{
     AxisDrive, ContactError, ContactScratch, ContactSolver, ContactState, Friction, HalfSpace, LineLayout, PatchLayout,
-    PatchMaterial, Ports, RigidMotion, Spin,
+    PatchMaterial, RigidMotion, Spin,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::patch::Hertz;
@@ -84,10 +82,8 @@ pub struct HalfSpaces {
     pub hertz: Hertz,
     pub radius: f64,
     patch: PatchLayout,
-    /// Logarithms of the distances of the nodes of the grid.
-    logarithms: DMatrix<f64>,
-    /// Bodies beneath the series, and beneath the grid.
-    bodies: [RigidBodies; 2],
+    /// Bodies that are rigid but for the lines.
+    bodies: RigidBodies,
 }
 
 impl HalfSpaces {
@@ -123,14 +119,14 @@ impl HalfSpaces {
 
     /// As [`Self::sideways`], on a grid of a number of `nodes` per half axis along the direction of rolling.
     pub fn sideways_on_nodes(aspect: f64, lines: usize, nodes: u32) -> Self {
-        let along = Self::build(aspect, lines, nodes, |grid| Box::new(NodeChoice::new(grid.clone(), None, None)));
+        let along = Self::build(aspect, lines, nodes, |grid| Box::new(NodeChoice::new(grid.clone(), None)));
         Self { patch: along.patch.sideways(), ..along }
     }
 
     /// Beside a grid of a number of `nodes` per half axis along the direction of rolling.
     pub fn with_grid(aspect: f64, lines: usize, nodes: u32) -> Self {
         Self::build(aspect, lines, nodes, |grid| {
-            Box::new(NodeChoice::new(grid.clone(), None, Some(SeriesSolver::new(REACH))))
+            Box::new(NodeChoice::new(grid.clone(), Some(SeriesSolver::new(REACH))))
         })
     }
 
@@ -153,8 +149,7 @@ impl HalfSpaces {
             patch: PatchLayout::ellipse(&hertz, radius, material(), lines, WIDTH, LOAD),
             hertz,
             radius,
-            bodies: [SMOOTH, grid.ports()].map(RigidBodies::new),
-            logarithms: logarithms(grid.nodes(), grid.spacing),
+            bodies: RigidBodies::new(),
         }
     }
 
@@ -170,7 +165,7 @@ impl HalfSpaces {
 
     /// Lines of the grid as series, if the solver takes all of them back.
     pub fn as_series(&self, lines: &Lines) -> Option<Lines> {
-        self.solver.on_preferred_nodes(&lines.iter().collect::<Vec<_>>(), LOAD / WIDTH)
+        self.solver.on_preferred_nodes(&lines.iter().collect::<Vec<_>>())
     }
 
     /// Lines of the series on the grid.
@@ -216,15 +211,10 @@ impl HalfSpaces {
         scratch: &mut ContactScratch,
     ) -> Result<Lines, ContactError> {
         let layout = self.layout(if load > 0.0 { load } else { LOAD });
-        let [smooth, nodes] = &self.bodies;
-        let (bodies, logarithms) = match start.iter().all(|line| line.ports == Ports::Smooth) {
-            true => (smooth, None),
-            false => (nodes, Some(&self.logarithms)),
-        };
         let load = [load / WIDTH, LOAD / WIDTH];
-        let (lines, flexibility) = ((&layout[..], logarithms), Some(&**self.patch.flexibility()));
+        let (lines, flexibility) = (&layout[..], Some(&**self.patch.flexibility()));
         let step = Step { radius: self.radius, lines, flexibility, load, motion, spin, laws };
-        bodies.solve_with(&*self.solver, &step, start, scratch)
+        self.bodies.solve_with(&*self.solver, &step, start, scratch)
     }
 
     /// Motions with a prescribed creepage.

@@ -11,8 +11,8 @@ use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
 use wheelrail::surface::{Flattening, Placement, Surfaces};
 
-/// Displacement components at the points of smooth bodies.
-pub const SMOOTH: usize = 10;
+/// Displacement components at the points of the bodies.
+const PORTS: usize = 10;
 /// Height of a hub without load [m].
 const IN_THE_AIR: f64 = 1e-3;
 /// Rigid motions of the wheel.
@@ -28,8 +28,8 @@ pub struct RigidBodies {
 pub struct Step<'a> {
     /// Radius of the wheel [m].
     pub radius: f64,
-    /// The lines, and the logarithms of the distances of the nodes of a grid; none on smooth bodies.
-    pub lines: (&'a [LineLayout], Option<&'a DMatrix<f64>>),
+    /// The lines.
+    pub lines: &'a [LineLayout],
     /// Flexibility of the lines under each other's tangential forces.
     pub flexibility: Option<&'a PatchFlexibility>,
     /// Load per metre of the bodies' width, and that which scales tolerances [N/m].
@@ -43,19 +43,18 @@ pub struct Step<'a> {
 }
 
 impl RigidBodies {
-    /// Bodies with a number of displacement components at their surfaces.
-    pub fn new(ports: usize) -> Self {
+    /// Bodies without any flexibility.
+    pub fn new() -> Self {
         let of = |rows, columns| DMatrix::zeros(rows, columns);
         Self {
-            none: [of(ports, ports), of(ports, AXES), of(AXES, ports), of(AXES, AXES)],
-            still: DVector::zeros(ports),
+            none: [of(PORTS, PORTS), of(PORTS, AXES), of(AXES, PORTS), of(AXES, AXES)],
+            still: DVector::zeros(PORTS),
         }
     }
 
-    fn response<'a>(&'a self, logarithms: Option<&'a DMatrix<f64>>) -> SurfaceResponse<'a> {
+    fn response(&self) -> SurfaceResponse<'_> {
         SurfaceResponse {
             shared: Influence { compliance: [&self.none[0], &self.none[0]], relative: &self.none[0] },
-            alone: logarithms,
             lift: 0.0,
             free: [&self.still, &self.still],
             inertial: &self.none[1],
@@ -85,7 +84,7 @@ impl RigidBodies {
     ) -> Result<Vec<ContactState>, ContactError> {
         let Step {
             radius,
-            lines: (layout, logarithms),
+            lines: layout,
             load: [load, nominal_load],
             motion,
             spin,
@@ -103,7 +102,7 @@ impl RigidBodies {
             kernel: layout.kernel,
             layer: 0.0,
             patch: flexibility.map(|flexibility| layout.in_patch(flexibility, line)),
-            bodies: self.response(logarithms),
+            bodies: self.response(),
             membrane: [&flat, &flat],
             time,
             duration: if time.is_stationary() { 0.0 } else { 1.0 / time.a0 },

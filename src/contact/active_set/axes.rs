@@ -5,6 +5,7 @@ use crate::contact::brake::{self, BrakeState};
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::rows::AffineRow;
 use crate::contact::problem::{AxisDrive, RigidMotion};
+use crate::linalg::POINTS;
 
 /// The rigid motions, and the states of their brakes.
 pub(super) struct Axes<'a> {
@@ -13,9 +14,11 @@ pub(super) struct Axes<'a> {
     brakes: PerAxis<BrakeState>,
 }
 
-/// A linear equation without its coefficients of the port forces, which stand beside it.
+/// A linear equation without its coefficients of the lines' own forces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Equation {
+    /// Coefficients of the forces of all lines on the ports.
+    pub ports: [f64; 2 * POINTS],
     /// Coefficients of the rigid motions.
     pub motions: PerAxis<f64>,
     /// Constant, motions apart.
@@ -34,19 +37,24 @@ impl<'a> Axes<'a> {
     }
 
     /// Takes new states of the brakes from motions and reactions; returns whether any changed. A brake keeps its hold
-    /// within a `tolerance` [N/m], at the rim; `forces` is memory for all ports of all lines.
-    pub fn update_brakes(&mut self, lines: &[ContactLine], forces: &mut [Vec<f64>], tolerance: f64) -> bool {
+    /// within a `tolerance` [N/m], at the rim.
+    pub fn update_brakes(&mut self, lines: &[ContactLine], tolerance: f64) -> bool {
         let mut changed = false;
         for axis in Axis::ALL {
             let AxisDrive::Braked { load, limit } = self.rigid[axis].drive else { continue };
             let Some(first) = lines.first() else { continue };
             let (before, speed) = (self.brakes[axis], first.traction.rigid[axis]);
-            let reaction = || self.reaction(axis, lines, forces);
+            let reaction = || self.reaction(axis, lines);
             let new = brake::next(before, [load, limit], reaction, speed, tolerance * axis.arm(first.problem.radius()));
             changed |= new != before;
             self.brakes[axis] = new;
         }
         changed
+    }
+
+    /// Acceleration of a motion by the motion itself, if it is sought [1/s]; zero otherwise.
+    pub fn gain(&self, axis: Axis) -> f64 {
+        if self.seeks(axis) { self.rigid[axis].gain } else { 0.0 }
     }
 
     /// True if the motion of an axis is sought.
@@ -70,29 +78,37 @@ impl<'a> Axes<'a> {
         for axis in Axis::ALL.into_iter().filter(|&axis| self.seeks(axis)) {
             motions[axis] += self.rigid[axis].gain * row.accelerations[axis];
         }
-        Equation { motions, constant: row.constant }
+        Equation { ports: row.ports, motions, constant: row.constant }
     }
 
-    /// Equation of a motion that is sought: its balance, or rest where a brake holds it. Writes the coefficients of all
-    /// port forces of every line to `forces`.
-    pub fn row(&self, axis: Axis, lines: &[ContactLine], forces: &mut [Vec<f64>]) -> Equation {
+    /// Equation of a motion that is sought: its balance, or rest where a brake holds it.
+    pub fn row(&self, axis: Axis, lines: &[ContactLine]) -> Equation {
         if self.holds(axis) {
-            forces.iter_mut().for_each(|forces| forces.fill(0.0));
-            return Equation { motions: PerAxis::unit(axis), constant: 0.0 };
+            return Equation { ports: [0.0; _], motions: PerAxis::unit(axis), constant: 0.0 };
         }
         let [load, limit] = self.rigid[axis].drive.loads().unwrap_or_default();
-        self.balance(axis, load + self.brakes[axis].direction() * limit, lines, forces)
+        self.balance(axis, load + self.brakes[axis].direction() * limit, lines)
     }
 
-    /// Balance of momentum of an axis under an external `load`; lever arms are those of the present iterate. Writes the
-    /// coefficients of all port forces of every line to `forces`.
-    fn balance(&self, axis: Axis, load: f64, lines: &[ContactLine], forces: &mut [Vec<f64>]) -> Equation {
+    /// Balance of momentum of an axis under an external `load`, to which every line adds its
+    /// [`pull_of_forces`](ContactLine::pull_of_forces), by its share of the width.
+    fn balance(&self, axis: Axis, load: f64, lines: &[ContactLine]) -> Equation {
         let own = &self.rigid[axis];
-        let mut equation = Equation { motions: PerAxis::default(), constant: own.momentum - load };
-        for (line, forces) in lines.iter().zip(forces) {
-            add_line(axis, line, forces, &mut equation.constant);
+        let mut equation =
+            Equation { ports: [0.0; _], motions: PerAxis::default(), constant: own.momentum - load };
+        let Some(first) = lines.first() else { return equation };
+        let bodies = &first.problem.bodies;
+        equation.ports = std::array::from_fn(|port| bodies.momentum[(axis.number(), port)]);
+        let pulls = first.iterate.all.pull[0].iter().zip(&equation.ports);
+        equation.constant += pulls.map(|(pull, momentum)| pull * momentum).sum::<f64>();
+        for line in lines {
+            equation.constant += line.problem.share
+                * match axis {
+                    Axis::Lateral => -line.state.across.force.iter().sum::<f64>(),
+                    Axis::Rotation => line.problem.radius() * line.iterate.retarded.force.iter().sum::<f64>(),
+                    Axis::Travel | Axis::Height => 0.0,
+                };
         }
-        let Some(bodies) = lines.first().map(|line| &line.problem.bodies) else { return equation };
         for (other, motion) in self.rigid.iter() {
             let of_deformation = bodies.deformation_inertia[(axis.number(), other.number())];
             let inertia = of_deformation + if other == axis { own.inertia } else { 0.0 };
@@ -105,59 +121,39 @@ impl<'a> Axes<'a> {
     }
 
     /// Moment \[N] that is missing from the balance of the rotation in the present iterate; 0 where it is prescribed or
-    /// held. `forces` is memory for all ports of all lines.
-    pub fn missing_moment(&self, lines: &[ContactLine], forces: &mut [Vec<f64>]) -> f64 {
+    /// held.
+    pub fn missing_moment(&self, lines: &[ContactLine]) -> f64 {
         let axis = Axis::Rotation;
         if !self.seeks(axis) || self.holds(axis) {
             return 0.0;
         }
         let [load, limit] = self.rigid[axis].drive.loads().unwrap_or_default();
-        self.reaction(axis, lines, forces) - load - self.brakes[axis].direction() * limit
+        self.reaction(axis, lines) - load - self.brakes[axis].direction() * limit
     }
 
-    /// Force [N/m] or moment \[N] that the motion of an axis takes in the present iterate; `forces` is memory for all
-    /// ports of all lines.
-    fn reaction(&self, axis: Axis, lines: &[ContactLine], forces: &mut [Vec<f64>]) -> f64 {
-        let balance = self.balance(axis, 0.0, lines, forces);
-        let (mut of_contact, mut motions) = (0.0, PerAxis::default());
-        for (line, forces) in lines.iter().zip(forces) {
-            of_contact += forces.iter().zip(line.traction.port_forces.iter()).map(|(c, f)| c * f).sum::<f64>();
-            motions = line.traction.rigid;
-        }
-        of_contact + balance.motions.dot(motions) + balance.constant
+    /// Residual of the equation of a motion in the present iterate [N/m, N].
+    pub fn residual(&self, axis: Axis, lines: &[ContactLine]) -> f64 {
+        self.value((axis, !self.holds(axis)), &self.row(axis, lines), lines)
     }
-}
 
-/// Adds a line to the balance of an axis, by its share of the width: writes the coefficients of its port forces to
-/// `forces` and adds to the `constant`, in which its lateral forces are.
-fn add_line(axis: Axis, line: &ContactLine, forces: &mut [f64], constant: &mut f64) {
-    let (grid, bodies, share) = (line.grid, &line.problem.bodies, line.problem.share);
-    let columns = bodies.momentum.as_slice().chunks_exact(bodies.momentum.nrows());
-    forces.iter_mut().zip(columns).for_each(|(force, momentum)| *force = momentum[axis.number()]);
-    // Open nodes without forces neither are unknown nor act on the hub.
-    for i in (0..grid.len()).filter(|&i| line.state.status[i].is_active() || line.is_loaded(i)) {
-        let port = grid.port(i);
-        match axis {
-            Axis::Travel => {
-                forces[port] -= 1.0;
-                forces[port + 1] -= line.slopes().rail(i);
-            }
-            Axis::Height => forces[port + 1] -= 1.0,
-            Axis::Lateral => *constant -= share * line.lateral(i),
-            Axis::Rotation => {
-                let [arm_t, arm_n] = line.lever_arms(i);
-                forces[port] += arm_t;
-                forces[port + 1] += arm_n;
-            }
-        }
+    /// Force [N/m] or moment \[N] that the motion of an axis takes in the present iterate.
+    fn reaction(&self, axis: Axis, lines: &[ContactLine]) -> f64 {
+        self.value((axis, true), &self.balance(axis, 0.0, lines), lines)
     }
-    if axis == Axis::Rotation {
-        *constant += share * (line.problem.radius() * line.iterate.retarded.force.iter().sum::<f64>());
-    }
-    for (i, pull) in line.given.layers.pull[0].iter().enumerate() {
-        *constant += share * (bodies.momentum[(axis.number(), grid.port(i))] * pull);
-    }
-    if share != 1.0 {
-        forces.iter_mut().for_each(|force| *force *= share);
+
+    /// Value of an equation of an axis in the present iterate, with the forces of all lines where it is that of its `balance`.
+    fn value(&self, (axis, balance): (Axis, bool), equation: &Equation, lines: &[ContactLine]) -> f64 {
+        let Some(first) = lines.first() else { return equation.constant };
+        let of_line = |line: &ContactLine| {
+            let loaded = (0..line.grid.len()).filter(|&i| line.is_loaded(i));
+            let of_node = |i: usize| {
+                let [tangential, normal] = line.pull_of_forces(axis, i);
+                tangential * line.tangential(i) + normal * line.normal(i)
+            };
+            line.problem.share * loaded.map(of_node).sum::<f64>()
+        };
+        let of_forces = if balance { lines.iter().map(of_line).sum() } else { 0.0 };
+        let of_ports: f64 = equation.ports.iter().zip(first.iterate.all.contact.iter()).map(|(by, f)| by * f).sum();
+        of_forces + of_ports + equation.motions.dot(first.traction.rigid) + equation.constant
     }
 }

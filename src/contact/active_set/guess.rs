@@ -7,7 +7,7 @@
 //! longer and is the same but for the tolerance of the edges: forces on a rough rail change by 1.4e-5.
 
 use super::axes::Axes;
-use super::fast::LinearSolver;
+use super::linear::LinearSolver;
 use super::pressing::{PressureSearch, Thoroughness};
 use super::states::Rules;
 use crate::contact::line::contact_line::ContactLine;
@@ -28,20 +28,20 @@ pub struct Guess {
 #[derive(Default)]
 struct LineBefore {
     status: Vec<NodeStatus>,
-    port_forces: DVector<f64>,
+    forces: DVector<f64>,
     height: f64,
 }
 
 impl LineBefore {
     fn take(&mut self, line: &ContactLine) {
         self.status.clone_from(&line.state.status);
-        self.port_forces.clone_from(&line.traction.port_forces);
+        self.forces.clone_from(&line.state.forces);
         self.height = line.traction.rigid.height;
     }
 
     fn give_back(&self, line: &mut ContactLine) {
         line.state.status.clone_from(&self.status);
-        line.traction.port_forces.clone_from(&self.port_forces);
+        line.state.forces.clone_from(&self.forces);
         line.traction.rigid.height = self.height;
     }
 }
@@ -49,7 +49,7 @@ impl LineBefore {
 impl Guess {
     /// Sets closed nodes, gaps, normal forces and height of the hub to those that belong to the shear forces and
     /// velocities at hand, where the surfaces are uneven, then the displacements to these forces: lever arms of the step
-    /// before would leave a moment that takes an iteration more. `rows` is memory for the coefficients of all ports.
+    /// before would leave a moment that takes an iteration more.
     pub fn find(
         &mut self,
         lines: &mut [ContactLine],
@@ -57,7 +57,6 @@ impl Guess {
         rules: &Rules,
         pressing: &mut PressureSearch,
         solver: &mut LinearSolver,
-        rows: &mut [Vec<f64>],
     ) {
         let skipped = |line: &ContactLine| line.given.rail_slope.is_empty() || line.problem.time.is_stationary();
         if lines.iter().all(skipped) {
@@ -65,7 +64,7 @@ impl Guess {
         }
         self.starts.resize_with(lines.len(), LineBefore::default);
         self.starts.iter_mut().zip(&*lines).for_each(|(start, line)| start.take(line));
-        if !matches!(pressing.press(lines, axes, rules, GUESSED, solver, rows), Ok(true)) {
+        if !matches!(pressing.press(lines, axes, rules, GUESSED, solver), Ok(true)) {
             self.starts.iter().zip(lines).for_each(|(start, line)| start.give_back(line));
             return;
         }
@@ -80,9 +79,9 @@ impl Guess {
 /// Gives nodes that slip the shear forces of friction under the pressures at hand.
 fn slide(line: &mut ContactLine) {
     for i in 0..line.grid.len() {
-        let (status, port) = (line.state.status[i], line.grid.port(i));
+        let (status, port) = (line.state.status[i], line.grid.component(i));
         if status.is_active() && !status.is_stuck() {
-            line.traction.port_forces[port] = status.friction_direction() * line.friction(i) * line.normal(i);
+            line.state.forces[port] = status.friction_direction() * line.friction(i) * line.normal(i);
         }
     }
 }

@@ -9,9 +9,8 @@
 
 use super::axes::Axes;
 use super::coefficients::{FollowedLaws, Obedience, Progress};
-use super::fast::LinearSolver;
 use super::guess::Guess;
-use super::linear::{Known, LinearProblem};
+use super::linear::LinearSolver;
 use super::pressing::PressureSearch;
 use super::states::{self, Rules};
 use super::unknowns::Unknowns;
@@ -46,6 +45,9 @@ const MOST_BALANCING: usize = 4;
 /// Change of the force of retarded layers in the last iteration that counts as none, over the nominal load \[1].
 const RETARDED_TOLERANCE: f64 = 1e-7;
 
+/// Way of the material in a step, over the distance of the nodes, at which it stands \[1].
+const STANDS: f64 = 1e-9;
+
 /// Buffers of the active set; of their content only functions of the operators outlive a solution.
 #[derive(Default)]
 pub struct ActiveSetScratch {
@@ -54,9 +56,8 @@ pub struct ActiveSetScratch {
 }
 
 impl ActiveSetScratch {
-    /// Linear problems solved so far by alternation or line by line, and all equations together: ordinary steps need no
-    /// others than the first.
-    pub fn solved(&self) -> [u64; 2] {
+    /// Linear problems solved so far.
+    pub fn solved(&self) -> u64 {
         self.memory.solved
     }
 }
@@ -65,16 +66,12 @@ impl ActiveSetScratch {
 #[derive(Default)]
 pub(super) struct SearchMemory {
     unknowns: Unknowns,
-    /// Nothing is known beside the unknowns.
-    known: Known,
-    /// Coefficients of all port forces of every line in the row at hand.
-    pub rows: Vec<Vec<f64>>,
     /// States before an update.
     before: Vec<NodeStatus>,
     pub pressing: PressureSearch,
     guess: Guess,
     pub solver: LinearSolver,
-    solved: [u64; 2],
+    solved: u64,
 }
 
 /// The search in one contact problem.
@@ -100,7 +97,7 @@ impl<'a> ActiveSet<'a> {
         let ActiveSetScratch { lines: buffers, memory } = scratch;
         buffers.resize_with(problem.lines.len(), LineScratch::default);
         for ((line, start), buffers) in problem.lines.iter().zip(&starts).zip(&mut *buffers) {
-            buffers.find_known(grid, line, start.state, &start.traction.port_forces, accelerations);
+            buffers.find_known(grid, line, start.state, accelerations);
         }
         exchange::pulls(grid, &problem.lines, buffers);
         let together = problem.lines.iter().zip(starts).zip(buffers);
@@ -110,8 +107,6 @@ impl<'a> ActiveSet<'a> {
         exchange::forces(&mut lines);
         // Lever arms of the start: without what the lines' own flexibility adds to them moments would not balance at once.
         lines.iter_mut().for_each(ContactLine::lift);
-        memory.rows.resize_with(lines.len(), Vec::new);
-        memory.rows.iter_mut().for_each(|row| row.resize(grid.ports(), 0.0));
         let penalties = lines.iter().map(states::penalty).collect();
         Self { problem, grid, lines, penalties, axes: Axes::new(&problem.rigid), memory }
     }
@@ -167,9 +162,9 @@ impl<'a> ActiveSet<'a> {
 
     /// Guesses the closed nodes from which the search starts.
     fn guess_closed(&mut self) {
-        let SearchMemory { rows, guess, pressing, solver, .. } = &mut *self.memory;
+        let SearchMemory { guess, pressing, solver, .. } = &mut *self.memory;
         let rules = Rules::new(&self.lines[0], self.penalties[0], self.problem.nominal_load, 1.0, false);
-        guess.find(&mut self.lines, &self.axes, &rules, pressing, solver, rows);
+        guess.find(&mut self.lines, &self.axes, &rules, pressing, solver);
     }
 
     /// Finds the states of all nodes at the friction coefficients of their slips; returns the iterations until states were
@@ -192,7 +187,7 @@ impl<'a> ActiveSet<'a> {
             let changed = self.update_states(iteration);
             // Once states and edges are settled, only motions and rim angle are refined: smooth functions of the data.
             decided += usize::from(first);
-            settled = !changed && (settled || self.edges_settled());
+            settled = !changed && (settled || self.edges_settled() || self.stands());
             first = first && !settled;
             let relieved = self.update_retarded().abs() > RETARDED_TOLERANCE * self.problem.nominal_load;
             let relieved = relieved && self.axes.seeks(Axis::Rotation);
@@ -219,18 +214,18 @@ impl<'a> ActiveSet<'a> {
 
     /// True if the moments balance with the lever arms of the present iterate, too: it was found with those before.
     fn turns_balance(&mut self) -> bool {
-        let missing = self.axes.missing_moment(&self.lines, &mut self.memory.rows);
+        let missing = self.axes.missing_moment(&self.lines);
         missing.abs() <= MOMENT_TOLERANCE * self.problem.nominal_load * self.lines[0].problem.radius()
     }
 
     /// Solves the linear problem of the present states; fills forces, rigid motions, displacements, slips and gaps.
     fn solve_linear(&mut self) -> Result<(), ContactError> {
         let Self { lines, axes, memory, .. } = self;
-        let SearchMemory { unknowns, known, rows, solver, solved, .. } = &mut **memory;
+        let SearchMemory { unknowns, solver, solved, .. } = &mut **memory;
         unknowns.list(lines, axes);
         lines.iter_mut().for_each(ContactLine::update_rim);
-        let together = solver.solve(lines, LinearProblem { axes, unknowns, known }, rows)?;
-        solved[usize::from(together)] += 1;
+        solver.solve(lines, (axes, unknowns), None)?;
+        *solved += 1;
         exchange::forces(lines);
         for line in lines {
             line.evaluate(axes.sought_accelerations(line.traction.rigid));
@@ -256,11 +251,18 @@ impl<'a> ActiveSet<'a> {
                 changed |= states::update(line, &rules, iteration > TOGETHER, &mut memory.before);
             }
         }
-        let braked = axes.update_brakes(lines, &mut memory.rows, tolerance * grid.len() as f64);
+        let braked = axes.update_brakes(lines, tolerance * grid.len() as f64);
         // A static problem needs a support.
         let held = problem.rigid.height.gain != 0.0 || !axes.seeks(Axis::Height);
         let closed = !held && states::support(lines);
         closed || changed || braked
+    }
+
+    /// True if the material moves by so little in the step that it does not matter where it comes from.
+    pub fn stands(&self) -> bool {
+        let moves = |line: &ContactLine| (line.traction.rigid.travel + line.rim_velocity()).abs();
+        let cell = |line: &ContactLine| STANDS * line.problem.time.a0 * line.grid.spacing;
+        self.lines.iter().all(|line| moves(line) < cell(line))
     }
 
     /// True if the edges of the patches are settled. The weights of the present solution are kept if so: with weights

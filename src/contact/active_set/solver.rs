@@ -5,11 +5,12 @@ use crate::contact::error::ContactError;
 use crate::contact::line::ContactGrid;
 use crate::contact::line::contact_line::{LineStart, Resumed};
 use crate::contact::line::history::LineHistory;
-use crate::contact::line::state::{AcrossNodes, GridState, NodeStatus};
+use crate::contact::line::state::{GridState, NodeStatus};
 use crate::contact::line::vectors::copy;
 use crate::contact::problem::{Begin, ContactProblem, LineProblem};
 use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, SolverState};
 use crate::contact::traction::Traction;
+use crate::linalg::POINTS;
 use crate::multistep::History;
 use crate::piecewise::Piecewise;
 use nalgebra::DVector;
@@ -34,42 +35,41 @@ impl ActiveSetSolver {
 }
 
 /// Makes `found` the start of a search, which begins with its states where they are `resumed`.
-fn begin<'a>(start: &ContactState, found: &'a mut ContactState, resumed: bool) -> Result<LineStart<'a>, ContactError> {
+fn begin<'a>(start: &'a ContactState, found: &'a mut ContactState, resumed: bool) -> Result<LineStart<'a>, ContactError> {
     let before = start.solver.grid().ok_or(ContactError::ForeignState)?;
-    let ContactState { ports, traction, history, energy, solver, .. } = found;
+    let ContactState { traction, history, energy, damping, solver, .. } = found;
     if !matches!(solver, SolverState::Grid(_)) {
         *solver = SolverState::Grid(Box::default());
     }
     let SolverState::Grid(state) = solver else { return Err(ContactError::ForeignState) };
-    let resumed = resumed.then(|| Resumed::take(state, traction));
+    let resumed = resumed.then(|| Resumed::take(state));
     state.copy_from(before);
     history.copy_from(&start.history);
-    *ports = start.ports;
-    copy(&mut traction.port_forces, &start.traction.port_forces);
-    let (friction, before) = (&mut traction.friction, &start.traction.friction);
-    (friction.tread_slip, friction.law_slope) = (before.tread_slip, before.law_slope);
+    let (friction, old) = (&mut traction.friction, &start.traction.friction);
+    (friction.tread_slip, friction.law_slope) = (old.tread_slip, old.law_slope);
     for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
         copy(ours, theirs);
     }
-    Ok(LineStart { state, history, traction, energy, resumed })
+    Ok(LineStart { before, state, history, traction, energy, damping, resumed })
 }
 
 impl ContactSolver for ActiveSetSolver {
     fn touching(&self, half_width: f64) -> ContactState {
         let reach = half_width.max(0.5 * self.grid.spacing);
         let touches = |x: &f64| if x.abs() < reach { NodeStatus::Stick } else { NodeStatus::Open };
-        let (n, zeros) = (self.grid.len(), DVector::zeros(self.grid.ports()));
+        let (n, nodal) = (self.grid.len(), || DVector::zeros(self.grid.components()));
         let state = GridState {
             status: self.grid.x.iter().map(touches).collect(),
             yielded: vec![false; n],
             slip: vec![0.0; n],
             gap: vec![0.0; n],
             tangential_gap: vec![History::default(); n],
-            across: AcrossNodes::default(),
+            forces: nodal(),
+            surface: [nodal(), nodal()],
+            ..GridState::default()
         };
-        let [loads, surface] = [(); 2].map(|()| [zeros.clone(), zeros.clone()]);
         ContactState {
-            traction: Traction { port_forces: zeros, loads, surface, ..Traction::default() },
+            traction: Traction::without_forces(),
             history: LineHistory::none(n),
             solver: SolverState::Grid(Box::new(state)),
             ..ContactState::default()
@@ -83,7 +83,7 @@ impl ContactSolver for ActiveSetSolver {
         found: &mut [&mut ContactState],
         scratch: &mut ContactScratch,
     ) -> Result<(), ContactError> {
-        let fits = |line: &LineProblem| line.bodies.shared.relative.nrows() == self.grid.ports();
+        let fits = |line: &LineProblem| line.bodies.shared.relative.nrows() == 2 * POINTS;
         if !problem.lines.iter().all(fits) || [start.len(), found.len()] != [problem.lines.len(); 2] {
             return Err(ContactError::ForeignState);
         }
@@ -104,13 +104,16 @@ impl ContactSolver for ActiveSetSolver {
 
     fn fits(&self, state: &ContactState) -> bool {
         let Some(line) = state.solver.grid() else { return false };
-        let (n, ports, traction) = (self.grid.len(), self.grid.ports(), &state.traction);
-        let vectors = traction.loads.iter().chain(&traction.surface).chain([&traction.port_forces]);
+        let (n, components) = (self.grid.len(), self.grid.components());
+        let unequal = |elastic: &Vec<History>| !elastic.is_empty() && elastic.len() != components;
         [line.status.len(), line.slip.len(), line.gap.len(), line.tangential_gap.len(), line.yielded.len()] == [n; 5]
             && line.across.fits(n)
             && state.history.friction.fits(if line.across.force.is_empty() { n } else { 2 * n })
-            && vectors.into_iter().all(|values| values.len() == ports)
-            && traction.port_forces.iter().all(|f| f.is_finite())
+            && line.surface.iter().chain([&line.forces]).all(|values| values.len() == components)
+            && line.forces.iter().all(|f| f.is_finite())
+            && line.pull.iter().all(|pull| pull.is_empty() || pull.len() == n)
+            && !line.elastic.iter().any(unequal)
+            && state.traction.fits()
     }
 
     fn decisions(&self, state: &ContactState, mut into: &mut dyn Hasher) {
@@ -121,8 +124,8 @@ impl ContactSolver for ActiveSetSolver {
     }
 
     fn surface_strain(&self, state: &ContactState) -> [Piecewise; 2] {
-        let grid = &self.grid;
+        let (grid, Some(line)) = (&self.grid, state.solver.grid()) else { return Default::default() };
         let strains = |u| (0..grid.len()).map(|i| grid.slope(u, i, 0)).collect();
-        state.traction.surface.each_ref().map(|u| Piecewise { x: grid.x.clone(), value: strains(u) })
+        line.surface.each_ref().map(|u| Piecewise { x: grid.x.clone(), value: strains(u) })
     }
 }

@@ -44,11 +44,17 @@ impl Rules {
 
 /// Mean stiffness of the nodes [N/m per m].
 pub(super) fn penalty(line: &ContactLine) -> f64 {
-    let stiffness = |i: usize| {
-        let port = line.grid.port(i) + 1;
-        line.problem.compliance(port, port)
+    let shared = line.problem.bodies.shared.relative;
+    let flexibility = |i: usize| {
+        let (node, mut by_bodies) = (i + line.grid.guard, 0.0);
+        let values = &line.grid.values[node];
+        for (k, at) in values.iter().enumerate() {
+            let of_points = values.iter().enumerate().map(|(l, by)| shared[(2 * k + 1, 2 * l + 1)] * by);
+            by_bodies += at * of_points.sum::<f64>();
+        }
+        2.0 * line.alone().by_force(1, node, node) + line.problem.share * by_bodies
     };
-    line.grid.len() as f64 / (0..line.grid.len()).map(stiffness).sum::<f64>()
+    line.grid.len() as f64 / (0..line.grid.len()).map(flexibility).sum::<f64>()
 }
 
 /// Takes new states of all nodes, or of the `last` one alone that is wrong; returns whether any changed. `before` is
@@ -132,12 +138,10 @@ fn closing_state(line: &ContactLine, i: usize, before: &[NodeStatus]) -> NodeSta
     }
 }
 
-/// Takes the state of a node from its normal force or, if it was open `before`, from its `gap` \[m]; returns whether it
-/// changed.
-pub(super) fn guess_state(line: &mut ContactLine, i: usize, gap: f64, rules: &Rules, before: &[NodeStatus]) -> bool {
+/// Takes the state of a node from its normal force or, if it was open `before`, from its gap; returns whether it changed.
+pub(super) fn guess_state(line: &mut ContactLine, i: usize, rules: &Rules, before: &[NodeStatus]) -> bool {
     let closed = before[i].is_active();
-    line.state.gap[i] = if closed { 0.0 } else { gap };
-    let indicator = if closed { line.normal(i) } else { -rules.penalty * gap };
+    let indicator = if closed { line.normal(i) } else { -rules.penalty * line.state.gap[i] };
     if indicator.abs() <= rules.force || (indicator > 0.0) == closed {
         return false;
     }
@@ -209,7 +213,7 @@ fn is_overloaded(line: &ContactLine) -> bool {
 /// True if the stuck nodes do not slip, round-off apart: their rows are linearised in V and Ω. In short steps of slow
 /// wheels the rate of the displacements, new less known ones over the step, has the larger round-off.
 pub(super) fn sticks(line: &ContactLine) -> bool {
-    let rate = line.problem.time.a0 * line.traction.surface.iter().map(|u| u.amax()).fold(0.0, f64::max);
+    let rate = line.problem.time.a0 * line.state.surface.iter().map(|u| u.amax()).fold(0.0, f64::max);
     let round_off = SLIP_ROUND_OFF[0] * line.speed() + SLIP_ROUND_OFF[1] * rate + SLIP_ROUND_OFF[2];
     let stuck = line.state.status.iter().zip(&line.state.slip).filter(|(status, _)| status.is_stuck());
     stuck.map(|(_, slip)| slip.abs()).fold(0.0, f64::max) <= round_off

@@ -6,7 +6,7 @@ use crate::contact::series::chebyshev::TERMS;
 use crate::contact::series::constants::Constants;
 use crate::contact::series::tables::{POWER, PRESSURE};
 use crate::contact::series::{Arch, GridPast, Past, SeriesState, Tractions};
-use crate::contact::solver::{ContactState, Ports, SolverState};
+use crate::contact::solver::{ContactState, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::POINTS;
 use crate::multistep::History;
@@ -37,7 +37,7 @@ pub(super) fn to_grid(
     grid: &ContactGrid,
     mut target: ContactState,
 ) -> Option<ContactState> {
-    let (traction, mut forces) = (&from.traction, target.traction.port_forces.clone());
+    let traction = &from.traction;
     let (SolverState::Series(patch), SolverState::Grid(state)) = (&from.solver, &mut target.solver) else {
         return None;
     };
@@ -79,11 +79,11 @@ pub(super) fn to_grid(
         slope_work: friction.slope_work,
     };
     for i in (0..grid.len()).filter(|&i| closed(i)) {
-        forces[grid.port(i)] = force(i);
-        forces[grid.port(i) + 1] = pressure.density(&[grid.x[i]])[0] * grid.width(i);
+        state.forces[grid.component(i)] = force(i);
+        state.forces[grid.component(i) + 1] = pressure.density(&[grid.x[i]])[0] * grid.width(i);
     }
-    let surface = [0, 1].map(|body| surface(constants, patch, &traction.surface[body], grid, body));
-    target.traction = Traction { loads: [forces.clone(), -&forces], port_forces: forces, surface, ..traction.clone() };
+    state.surface = [0, 1].map(|body| surface(constants, patch, &traction.surface[body], grid, body));
+    target.traction = traction.clone();
     Some(target)
 }
 
@@ -120,7 +120,7 @@ fn surface(
     let SeriesState { tractions, kernel, .. } = patch;
     let side = if body == 0 { -1.0 } else { 1.0 };
     let [along, normal] = [kernel.tangential.factor, kernel.normal.factor].map(|factor| side * factor);
-    let mut all = DVector::zeros(grid.ports());
+    let mut all = DVector::zeros(grid.components());
     for (node, &x) in grid.nodes().iter().enumerate() {
         let values = constants.points.values(x);
         let rest = |component: usize| (0..POINTS).map(|k| values[k] * smooth[2 * k + component]).sum::<f64>();
@@ -219,23 +219,12 @@ pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &Contac
     };
     let friction = friction_history(constants, &tractions, side, from);
     let patch = SeriesState { tractions, past: [history(false), history(true)], ..SeriesState::default() };
-    let mut moved = ContactState {
-        ports: Ports::Smooth,
+    let moved = ContactState {
         traction: traction.clone(),
         history: LineHistory { rim_angle: from.history.rim_angle, friction },
         solver: SolverState::Series(Box::new(patch)),
         ..ContactState::default()
     };
-    let mut forces = DVector::zeros(2 * POINTS);
-    for i in 0..grid.len() {
-        for (k, value) in constants.points.values(grid.x[i]).into_iter().enumerate() {
-            forces[2 * k] += value * traction.port_forces[grid.port(i)];
-            forces[2 * k + 1] += value * traction.port_forces[grid.port(i) + 1];
-        }
-    }
-    moved.traction.surface = [DVector::zeros(2 * POINTS), DVector::zeros(2 * POINTS)];
-    moved.traction.loads = [forces.clone(), -&forces];
-    moved.traction.port_forces = forces;
     Some(moved)
 }
 

@@ -3,6 +3,7 @@
 //! A lateral force displaces its own line as a logarithm and all lines of the patch as polynomials
 //! ([`crate::contact::flexibility`]); the lateral motion of the hub and the spin add to the slip.
 
+use super::alone::Alone;
 use super::contact_line::{ContactLine, LineAcross, LineIterate};
 use crate::contact::flexibility::at;
 use crate::contact::line::state::AcrossNodes;
@@ -32,9 +33,9 @@ impl ContactLine<'_> {
     /// Displacement of the wheel less that of the rail at the node `at` by a unit of lateral force at candidate `by`
     /// [m/(N/m)].
     pub fn lateral_flexibility(&self, at: usize, by: usize) -> f64 {
-        let (problem, node) = (self.problem, self.grid.port(by) / 2);
-        let alone = problem.bodies.alone.map_or(0.0, |all| problem.kernel.lateral.displacement(all[(at, node)]));
-        2.0 * alone + if at == node { problem.layer / self.grid.width(by) } else { 0.0 }
+        let node = self.grid.component(by) / 2;
+        2.0 * self.alone().by_force(2, at, node)
+            + if at == node { self.problem.layer / self.grid.width(by) } else { 0.0 }
     }
 
     /// Takes displacements and slips across under the present forces and motions.
@@ -48,7 +49,7 @@ impl ContactLine<'_> {
             if self.state.status[i].is_active() {
                 let known = self.state.across.gap[i].offset(&problem.time);
                 let still = self.traction.rigid.lateral + spin * grid.x[i] + known;
-                let (node, displaced) = (grid.port(i) / 2, &self.iterate.across.displaced);
+                let (node, displaced) = (grid.component(i) / 2, &self.iterate.across.displaced);
                 let rigid = still + problem.time.a0 * self.moved_across(i) - 0.5 * speed * self.stretch_across(i);
                 let upwind = self.stencil(i, self.iterate.upwind.row(i), to_right);
                 let strain: f64 = upwind.iter().map(|(port, weight)| weight * displaced[port / 2]).sum();
@@ -62,16 +63,14 @@ impl ContactLine<'_> {
 
     /// Takes the displacements at all nodes by the line's own lateral forces.
     fn displace_across(&mut self) {
-        let Self { grid, problem, iterate, state, .. } = self;
+        let Self { grid, problem, iterate, state, kernel, .. } = self;
         let LineIterate { across, displaced: [_, body], .. } = &mut **iterate;
         across.centred_slip.resize(grid.len(), 0.0);
         across.displaced.clear();
-        across.displaced.resize(grid.ports() / 2, 0.0);
-        let first = grid.port(0) / 2;
-        if let Some(alone) = problem.alone() {
-            alone.displace(2, first, &state.across.force, body);
-            across.displaced.iter_mut().zip(&*body).for_each(|(both, body)| *both = 2.0 * body);
-        }
+        across.displaced.resize(grid.components() / 2, 0.0);
+        let first = grid.component(0) / 2;
+        Alone { kernel: *kernel, grid }.displace(2, first, &state.across.force, body);
+        across.displaced.iter_mut().zip(&*body).for_each(|(both, body)| *both = 2.0 * body);
         for (i, force) in state.across.force.iter().enumerate().filter(|_| problem.layer > 0.0) {
             across.displaced[first + i] += force * problem.layer / grid.width(i);
         }
@@ -81,7 +80,7 @@ impl ContactLine<'_> {
     fn moved_across(&self, i: usize) -> f64 {
         let by_lines = |powers| at(&self.iterate.across.field.displacement, &powers);
         let by_lines = self.problem.patch.map_or(0.0, |patch| by_lines(patch.powers(self.grid.x[i])));
-        self.iterate.across.displaced[self.grid.port(i) / 2] + by_lines
+        self.iterate.across.displaced[self.grid.component(i) / 2] + by_lines
     }
 
     /// Slope along the line of the lateral displacement by all lines of the patch at candidate `i` \[1].
@@ -101,7 +100,7 @@ impl ContactLine<'_> {
                 false => history.push(&time, moved),
             }
         }
-        let (first, LineAcross { displaced, moments, field, .. }) = (self.grid.port(0) / 2, &self.iterate.across);
+        let (first, LineAcross { displaced, moments, field, .. }) = (self.grid.component(0) / 2, &self.iterate.across);
         let own = self.state.across.force.iter().zip(&displaced[first.min(displaced.len())..]);
         let by_lines = moments.iter().zip(&field.displacement).map(|(moment, by)| moment * by);
         0.5 * (own.map(|(force, moved)| force * moved).sum::<f64>() + by_lines.sum::<f64>())
@@ -126,6 +125,7 @@ impl ContactLine<'_> {
     pub(super) fn spin_moment(&self) -> f64 {
         let AcrossNodes { force, .. } = &self.state.across;
         let turned: f64 = force.iter().zip(&self.grid.x).map(|(force, x)| force * x).sum();
-        self.problem.position * self.traction.friction_force() - turned
+        let along: f64 = (0..self.grid.len()).map(|i| self.tangential(i)).sum();
+        self.problem.position * along - turned
     }
 }

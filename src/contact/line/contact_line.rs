@@ -2,15 +2,16 @@
 
 use super::given::KnownPart;
 use super::grid::ContactGrid;
+use super::alone::{Alone, OwnDisplacement};
 use super::history::LineHistory;
-use super::others::{LineForces, OtherLines};
-use super::retarded::Retarded;
+use super::retarded::{PortForces, Retarded};
 use super::rim::{RimAngleRow, RimFrame};
 use super::slopes::Slopes;
 use super::state::{GridState, NodeStatus};
 use super::streamline::UpwindRows;
 use crate::axes::PerAxis;
 use crate::contact::flexibility::{ByPowers, Field};
+use crate::contact::kernel::LineKernel;
 use crate::contact::limits::RESISTANCE;
 use crate::contact::problem::{LineProblem, Spin};
 use crate::contact::traction::Traction;
@@ -28,8 +29,12 @@ pub struct LineScratch {
 /// Quantities of a line that follow from forces, states and motions in the present iterate.
 #[derive(Default)]
 pub struct LineIterate {
-    /// Forces of the other lines.
-    pub others: OtherLines,
+    /// Forces of all lines.
+    pub all: PortForces,
+    /// Moments of the line's own tangential forces with the powers of the place [N/m], and what the forces of all lines
+    /// of the patch do to it.
+    pub moments: ByPowers,
+    pub field: Field,
     /// Rim angle as an affine function of the forces.
     pub rim: RimAngleRow,
     /// Upwind differences of the slip.
@@ -44,6 +49,8 @@ pub struct LineIterate {
     /// Slip velocity of the candidates with centred differences [m/s]: it dissipates. The upwind one counts its own
     /// numerical dissipation.
     pub centred_slip: Vec<f64>,
+    /// Displacement by the own flexibility.
+    pub own: OwnDisplacement,
     /// Nodal forces of one component [N/m], and the displacement by them \[m].
     pub displaced: [Vec<f64>; 2],
     /// Lateral part.
@@ -64,35 +71,36 @@ pub struct LineAcross {
 }
 
 impl LineScratch {
-    /// Finds the known part of a problem for a line that starts from `state` and port `forces`, under rigid
-    /// `accelerations` of the wheel that are known.
+    /// Finds the known part of a problem for a line that starts from `state`, under rigid `accelerations` of the wheel that are
+    /// known.
     pub fn find_known(
         &mut self,
         grid: &ContactGrid,
         problem: &LineProblem,
         state: &GridState,
-        forces: &DVector<f64>,
         accelerations: PerAxis<f64>,
     ) {
-        self.given.find(grid, problem, state, forces, accelerations);
-        let ports = if problem.bodies.alone.is_some() { grid.ports() } else { 0 };
-        self.iterate.others.reset(ports);
+        self.given.find(grid, problem, state, accelerations);
     }
 }
 
-/// A line in the present iterate: `state`, and of `traction` port forces, surface displacements, rigid motions and
-/// friction coefficient.
+/// A line in the present iterate: `state`, and of `traction` the ports, rigid motions and friction coefficient.
 pub struct ContactLine<'a> {
     pub grid: &'a ContactGrid,
     pub problem: &'a LineProblem<'a>,
+    /// Flexibility that it has for itself, as far as it answers at once.
+    pub kernel: LineKernel,
     /// Known part of the problem.
     pub given: &'a KnownPart,
     pub iterate: &'a mut LineIterate,
     pub state: &'a mut GridState,
     pub history: &'a mut LineHistory,
     pub traction: &'a mut Traction,
-    /// Elastic energy that neither the bodies nor the logarithms count [J/m].
+    /// Elastic energy of the line's flexibility, and the power that it takes where it is retarded [J/m, W/m].
     pub energy: &'a mut f64,
+    pub damping: &'a mut f64,
+    /// State of the step before.
+    pub before: &'a GridState,
     /// Frame that turns with the rim, at the angle of the present iterate.
     pub frame: RimFrame<'a>,
     /// Rim angle that belongs to the surface displacements at hand \[rad]: in the first iteration those of the start,
@@ -105,28 +113,32 @@ pub struct ContactLine<'a> {
 
 /// State, history, traction and elastic energy from which a line starts, and which it changes.
 pub struct LineStart<'a> {
+    /// State of the step before.
+    pub before: &'a GridState,
     pub state: &'a mut GridState,
     pub history: &'a mut LineHistory,
     pub traction: &'a mut Traction,
     pub energy: &'a mut f64,
+    /// Power that the retarded flexibility of the line takes [W/m].
+    pub damping: &'a mut f64,
     /// States and forces with which the search begins, if they are others.
     pub resumed: Option<Resumed>,
 }
 
-/// States of the candidates and port forces of a solution, from which another one is looked for.
+/// States of the candidates and forces of a solution, from which another one is looked for.
 pub struct Resumed {
     status: Vec<NodeStatus>,
     yielded: Vec<bool>,
-    port_forces: DVector<f64>,
+    forces: DVector<f64>,
 }
 
 impl Resumed {
     /// Takes them from a solution.
-    pub fn take(state: &mut GridState, traction: &mut Traction) -> Self {
+    pub fn take(state: &mut GridState) -> Self {
         Self {
             status: std::mem::take(&mut state.status),
             yielded: std::mem::take(&mut state.yielded),
-            port_forces: std::mem::take(&mut traction.port_forces),
+            forces: std::mem::take(&mut state.forces),
         }
     }
 }
@@ -139,7 +151,7 @@ impl<'a> ContactLine<'a> {
         start: LineStart<'a>,
         scratch: &'a mut LineScratch,
     ) -> Self {
-        let LineStart { state, history, traction, energy, resumed } = start;
+        let LineStart { before, state, history, traction, energy, damping, resumed } = start;
         let LineScratch { given, iterate } = scratch;
         if !problem.limits.is_limited() {
             state.yielded.fill(false);
@@ -153,12 +165,15 @@ impl<'a> ContactLine<'a> {
         Self {
             grid,
             problem,
+            kernel: problem.kernel_at_once(),
             given,
             iterate,
             state,
             history,
             traction,
             energy,
+            damping,
+            before,
             frame,
             surface_angle: 0.0,
             spin: Spin::default(),
@@ -168,15 +183,14 @@ impl<'a> ContactLine<'a> {
 
     /// Takes the states and forces with which the search begins, if they are others than those of the step before.
     pub fn resume(&mut self) {
-        if let Some(Resumed { status, yielded, port_forces }) = self.resumed.take() {
-            (self.state.status, self.state.yielded, self.traction.port_forces) = (status, yielded, port_forces);
+        if let Some(Resumed { status, yielded, forces }) = self.resumed.take() {
+            (self.state.status, self.state.yielded, self.state.forces) = (status, yielded, forces);
         }
     }
 
     /// Normal force of all lines per metre of the bodies' width [N/m].
     pub fn load_of_all(&self) -> f64 {
-        let normal = |forces: &DVector<f64>| forces.iter().skip(1).step_by(2).sum::<f64>();
-        normal(&self.iterate.others.forces) + self.problem.share * normal(&self.traction.port_forces)
+        self.iterate.all.contact.iter().skip(1).step_by(2).sum()
     }
 
     /// Closed candidates.
@@ -186,12 +200,12 @@ impl<'a> ContactLine<'a> {
 
     /// Nodal normal force at candidate `i` [N/m].
     pub fn normal(&self, i: usize) -> f64 {
-        self.traction.port_forces[self.grid.port(i) + 1]
+        self.state.forces[self.grid.component(i) + 1]
     }
 
     /// Nodal tangential force on the wheel at candidate `i` [N/m].
     pub fn tangential(&self, i: usize) -> f64 {
-        self.traction.port_forces[self.grid.port(i)]
+        self.state.forces[self.grid.component(i)]
     }
 
     /// True if candidate `i` carries a normal or a tangential force.
@@ -234,23 +248,28 @@ impl<'a> ContactLine<'a> {
 
     /// Begins with the upwind differences of the present states and pressures.
     pub fn begin_upwind(&mut self) {
-        let (grid, forces, to_right) = (self.grid, &self.traction.port_forces, self.upstream_right());
-        let pressure = |i: usize| forces[grid.port(i) + 1] * grid.share(i);
+        let (grid, forces, to_right) = (self.grid, &self.state.forces, self.upstream_right());
+        let pressure = |i: usize| forces[grid.component(i) + 1] * grid.share(i);
         self.iterate.upwind.begin(&self.state.status, pressure, to_right);
     }
 
     /// Takes the upwind differences of the present states and pressures where they are farther than a `tolerance` from those
     /// of the beginning; returns the largest change of their weights.
     pub fn update_upwind(&mut self, tolerance: f64) -> f64 {
-        let (grid, forces, to_right) = (self.grid, &self.traction.port_forces, self.upstream_right());
-        let pressure = |i: usize| forces[grid.port(i) + 1] * grid.share(i);
+        let (grid, forces, to_right) = (self.grid, &self.state.forces, self.upstream_right());
+        let pressure = |i: usize| forces[grid.component(i) + 1] * grid.share(i);
         self.iterate.upwind.update(&self.state.status, pressure, to_right, tolerance)
     }
 
     /// Takes the forces of retarded layers in the present iterate; returns the change of their sum [N/m].
     pub fn update_retarded(&mut self) -> f64 {
-        let own = LineForces { contact: &self.traction.port_forces, pull: &self.given.layers.pull };
-        self.iterate.retarded.update(self.grid, self.problem, self.iterate.others.mean(self.problem.share, own))
+        let LineIterate { retarded, all, .. } = &mut *self.iterate;
+        retarded.update(self.grid, self.problem, self.given, (&self.state.forces, all))
+    }
+
+    /// Flexibility that the line has for itself, as far as it answers at once, on its nodes.
+    pub fn alone(&self) -> Alone<'_> {
+        Alone { kernel: self.kernel, grid: self.grid }
     }
 
     /// Slopes of gap and surfaces in the present iterate.

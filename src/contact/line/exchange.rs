@@ -2,35 +2,44 @@
 
 use super::contact_line::{ContactLine, LineScratch};
 use super::grid::ContactGrid;
-use super::others::add;
 use crate::contact::problem::LineProblem;
+use nalgebra::DVector;
 
-/// Gives each of several lines the displacements by the hot layers of the others.
+/// Displaces all lines by what the hot layers of all do to the bodies.
 pub fn pulls(grid: &ContactGrid, lines: &[LineProblem], scratch: &mut [LineScratch]) {
-    for (k, line) in lines.iter().enumerate() {
-        if line.bodies.alone.is_none() {
-            continue;
+    let Some(bodies) = lines.first().map(|line| &line.bodies) else { return };
+    for body in 0..2 {
+        let mut sum: DVector<f64> = DVector::zeros(0);
+        for (line, scratch) in lines.iter().zip(&*scratch) {
+            let pull = &scratch.given.layers.on_ports[body];
+            if sum.is_empty() && !pull.is_empty() {
+                sum = DVector::zeros(pull.len());
+            }
+            if !pull.is_empty() {
+                sum.axpy(line.share, pull, 1.0);
+            }
         }
-        let mut sum = [Vec::new(), Vec::new()];
-        for (_, (other, scratch)) in lines.iter().zip(&*scratch).enumerate().filter(|(j, _)| *j != k) {
-            let pulls = sum.iter_mut().zip(&scratch.given.layers.pull);
-            pulls.for_each(|(sum, pull)| add(other.share, pull, sum));
+        let displaced = (!sum.is_empty()).then(|| bodies.shared.compliance[body] * &sum);
+        for scratch in &mut *scratch {
+            if let Some(displaced) = &displaced {
+                scratch.given.add_pulled(grid, body, displaced);
+            }
+            scratch.iterate.all.pull[body].clone_from(&sum);
         }
-        scratch[k].given.add_pulls_of_others(grid, &line.bodies.shared, &sum);
-        scratch[k].iterate.others.pull = sum;
     }
 }
 
-/// Gives each of several lines the contact forces of the others in the present iterate.
+/// Gives lines the contact forces of all in the present iterate.
 pub fn forces(lines: &mut [ContactLine]) {
-    for k in 0..lines.len() {
-        let (before, rest) = lines.split_at_mut(k);
-        let [line, after @ ..] = rest else { return };
-        line.iterate.others.forces.fill(0.0);
-        for other in before.iter().chain(&*after) {
-            line.iterate.others.forces.axpy(other.problem.share, &other.traction.port_forces, 1.0);
+    let mut all: DVector<f64> = DVector::zeros(0);
+    for line in &mut *lines {
+        line.traction.port_forces = line.grid.moments(line.state.forces.as_slice());
+        if all.is_empty() {
+            all = DVector::zeros(line.traction.port_forces.len());
         }
+        all.axpy(line.problem.share, &line.traction.port_forces, 1.0);
     }
+    lines.iter_mut().for_each(|line| line.iterate.all.contact.clone_from(&all));
     fields(lines);
 }
 
@@ -38,18 +47,18 @@ pub fn forces(lines: &mut [ContactLine]) {
 fn fields(lines: &mut [ContactLine]) {
     for line in &mut *lines {
         let forces = (0..line.grid.len()).map(|i| (i, line.tangential(i)));
-        line.iterate.others.moments = line.moments(forces);
+        line.iterate.moments = line.moments(forces);
         let lateral = (0..line.state.across.force.len()).map(|i| (i, line.lateral(i)));
         line.iterate.across.moments = line.moments(lateral);
     }
     for k in 0..lines.len() {
         let Some(patch) = lines[k].problem.patch else { return };
         if lines[k].is_sideways() {
-            let moments = lines.iter().map(|line| [&line.iterate.others.moments, &line.iterate.across.moments]);
+            let moments = lines.iter().map(|line| [&line.iterate.moments, &line.iterate.across.moments]);
             let [along, across] = patch.fields(moments);
-            (lines[k].iterate.others.field, lines[k].iterate.across.field) = (along, across);
+            (lines[k].iterate.field, lines[k].iterate.across.field) = (along, across);
         } else {
-            lines[k].iterate.others.field = patch.field(lines.iter().map(|line| &line.iterate.others.moments));
+            lines[k].iterate.field = patch.field(lines.iter().map(|line| &line.iterate.moments));
         }
     }
 }

@@ -2,7 +2,6 @@
 
 use super::contact_line::ContactLine;
 use crate::contact::flexibility::{ByMoments, ByPowers, at, slip_of_field};
-use std::ops::Range;
 
 impl ContactLine<'_> {
     /// Moments of tangential forces [N/m] at candidates with the powers of their places.
@@ -18,13 +17,13 @@ impl ContactLine<'_> {
 
     /// Displacement of the wheel less that of the rail at a candidate \[m].
     pub fn moved_by_lines(&self, i: usize) -> f64 {
-        let moved = |powers| at(&self.iterate.others.field.displacement, &powers);
+        let moved = |powers| at(&self.iterate.field.displacement, &powers);
         self.problem.patch.map_or(0.0, |patch| moved(patch.powers(self.grid.x[i])))
     }
 
     /// Displacement of the wheel less that of the rail by an elastic layer between them at a tangential port \[m].
     pub fn moved_by_layer(&self, port: usize) -> f64 {
-        if self.problem.layer == 0.0 { 0.0 } else { self.traction.port_forces[port] * self.layer_by_force(port) }
+        if self.problem.layer == 0.0 { 0.0 } else { self.state.forces[port] * self.layer_by_force(port) }
     }
 
     /// That displacement per unit nodal force [m/(N/m)].
@@ -35,14 +34,14 @@ impl ContactLine<'_> {
 
     /// Elastic energy of the layer [J/m].
     pub fn energy_of_layer(&self) -> f64 {
-        let energy = |i: usize| 0.5 * self.tangential(i) * self.moved_by_layer(self.grid.port(i));
+        let energy = |i: usize| 0.5 * self.tangential(i) * self.moved_by_layer(self.grid.component(i));
         (0..self.grid.len()).map(energy).sum()
     }
 
     /// Strain of the wheel at a candidate \[1]; that of the rail is the opposite.
     pub fn stretch_by_lines(&self, i: usize) -> f64 {
         let Some(patch) = self.problem.patch else { return 0.0 };
-        0.5 * at(&self.iterate.others.field.strain, &patch.powers(self.grid.x[i])) / patch.half_length
+        0.5 * at(&self.iterate.field.strain, &patch.powers(self.grid.x[i])) / patch.half_length
     }
 
     /// Slip [m/s] as a polynomial of the place by unit moments of the line number `by` of the patch; `None`: there is
@@ -54,31 +53,4 @@ impl ContactLine<'_> {
         Some(between.slips(slip_of_field(speeds, patch.half_length)))
     }
 
-    /// Adds the change of the slip at a candidate, of which the upwind `stencil` is given, with the forces on the layer to
-    /// their coefficients at the ports `window`.
-    pub fn add_slip_of_layer(&self, i: usize, stencil: [(usize, f64); 3], window: Range<usize>, forces: &mut [f64]) {
-        if self.problem.layer == 0.0 {
-            return;
-        }
-        let speed = -0.5 * (self.traction.rigid.travel + self.rim_velocity());
-        let carried = stencil.map(|(port, weight)| (port, speed * weight));
-        let rate = [(self.grid.port(i), self.problem.time.a0)];
-        for (port, factor) in rate.into_iter().chain(carried).filter(|(port, _)| window.contains(port)) {
-            forces[port] += factor * self.layer_by_force(port);
-        }
-    }
-
-    /// Adds the change of the slip at a candidate with the tangential forces of a line of the patch to their
-    /// coefficients at the ports `window`.
-    pub fn add_slip_by(&self, i: usize, by: &ContactLine, window: Range<usize>, forces: &mut [f64]) {
-        let (Some(patch), Some(other)) = (self.problem.patch, by.problem.patch) else { return };
-        let Some(by_moments) = self.slip_by_moments(other.line) else { return };
-        let here = patch.powers(self.grid.x[i]);
-        let of_moments = by_moments.map(|polynomial| at(&polynomial, &here));
-        let first = window.start / 2;
-        let nodes = forces[window].as_chunks_mut::<2>().0;
-        for (node, x) in nodes.iter_mut().zip(&self.grid.nodes()[first..]) {
-            node[0] += at(&of_moments, &other.powers(*x));
-        }
-    }
 }

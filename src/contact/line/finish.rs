@@ -1,8 +1,9 @@
 //! End of a solution: histories move on, loads and power are taken, the traction is read off.
 
+use super::alone::Alone;
 use super::contact_line::{ContactLine, LineIterate};
 use super::observe;
-use super::vectors::copy;
+use super::retarded::nodal_loads;
 use crate::multistep::History;
 
 /// Moves the histories of a line on and reads off its traction.
@@ -10,13 +11,8 @@ pub fn finish(line: &mut ContactLine) {
     // The velocity of the rim in it is that before the histories move on.
     let [friction, work] = line.take_friction_power();
     remember(line);
-    let ContactLine { grid, problem, given, traction, .. } = line;
-    for (body, sign) in [(0, 1.0), (1, -1.0)] {
-        let loads = &mut traction.loads[body];
-        copy(loads, &traction.port_forces);
-        *loads *= sign;
-        given.layers.pull[body].iter().enumerate().for_each(|(i, pull)| loads[grid.port(i)] += pull);
-    }
+    load(line);
+    let ContactLine { problem, traction, .. } = line;
     let power = traction.friction.dissipate(friction, work, problem.duration);
     line.traction.resultant = line.resultant();
     if line.is_sideways() {
@@ -28,7 +24,7 @@ pub fn finish(line: &mut ContactLine) {
     observe::overlap(grid, state, overlap, traction);
     traction.under_film = observe::under_film(grid, state, &given.strength);
     let limits = &given.strength.limit;
-    traction.yielding.springing_work = observe::springing_work(grid, overlap, limits, traction);
+    traction.yielding.springing_work = observe::springing_work(grid, overlap, limits, &state.forces);
     let pressures = limits.iter().enumerate().map(|(i, force)| force / grid.width(i));
     let limit = pressures.reduce(f64::max).unwrap_or(f64::INFINITY);
     observe::read_off(grid, [power, limit], state, [centred_slip, &across.centred_slip], traction);
@@ -42,15 +38,53 @@ fn remember(line: &mut ContactLine) {
         false => values.push(&time, value),
     };
     for i in 0..line.grid.len() {
-        let (port, [wheel, rail]) = (line.grid.port(i), &line.traction.surface);
+        let (port, [wheel, rail]) = (line.grid.component(i), &line.state.surface);
         let relative = wheel[port] - rail[port] + line.moved_by_lines(i) + line.moved_by_layer(port);
         push(&mut line.state.tangential_gap[i], relative);
     }
     push(&mut line.history.rim_angle, line.frame.rim_angle);
-    let others = &line.iterate.others;
-    let by_lines = others.moments.iter().zip(&others.field.displacement).map(|(moment, by)| moment * by).sum::<f64>();
+    let LineIterate { moments, field, .. } = &*line.iterate;
+    let by_lines = moments.iter().zip(&field.displacement).map(|(moment, by)| moment * by).sum::<f64>();
     *line.energy = 0.5 * by_lines + line.energy_of_layer();
     if line.is_sideways() {
         *line.energy += line.remember_across();
+    }
+}
+
+/// Takes the loads on the bodies, the work of the pulls among them, and the energy of the line's own flexibility under them.
+fn load(line: &mut ContactLine) {
+    let ContactLine { grid, problem, given, state, before, traction, energy, damping, iterate, .. } = line;
+    let (mut loads, alone) = (Vec::new(), Alone { kernel: problem.kernel, grid });
+    (traction.pull_work, **damping) = (0.0, 0.0);
+    for (body, sign) in [(0, 1.0), (1, -1.0)] {
+        let layers = &given.layers;
+        traction.loads[body] = &traction.port_forces * sign;
+        if !layers.on_ports[body].is_empty() {
+            traction.loads[body] += &layers.on_ports[body];
+        }
+        let pulls = [&layers.pull[body], &before.pull[body]];
+        let pull = |pulls: &Vec<f64>, i: usize| pulls.get(i).copied().unwrap_or(0.0);
+        for i in 0..pulls[0].len().max(pulls[1].len()) {
+            let (at, mean) = (grid.component(i), 0.5 * (pull(pulls[0], i) + pull(pulls[1], i)));
+            traction.pull_work += mean * (state.surface[body][at] - before.surface[body][at]);
+        }
+        nodal_loads(grid, &state.forces, &layers.pull[body], body, &mut loads);
+        if let Some(layer) = problem.bodies.retarded[body] {
+            let (time, known) = (&problem.time, &given.elastic[body]);
+            state.elastic[body].resize(grid.components(), History::default());
+            for ((history, load), known) in state.elastic[body].iter_mut().zip(&mut loads).zip(known) {
+                *load = layer.share * *load + known;
+                match time.is_stationary() {
+                    true => *history = History::constant(*load),
+                    false => history.push(time, *load),
+                }
+            }
+            let rates: Vec<f64> = state.elastic[body].iter().map(|history| history.rate).collect();
+            alone.find(&rates, &mut iterate.own);
+            **damping += layer.time * iterate.own.work(body, &rates);
+        }
+        alone.find(&loads, &mut iterate.own);
+        **energy += 0.5 * iterate.own.work(body, &loads);
+        state.pull[body].clone_from(&layers.pull[body]);
     }
 }

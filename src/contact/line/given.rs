@@ -1,5 +1,6 @@
 //! Part of a line that is known before its contact forces are: gap, displacements and strength without them.
 
+use super::alone::{Alone, OwnDisplacement};
 use super::grid::ContactGrid;
 use super::hot_layers::HotLayers;
 use super::rim;
@@ -7,7 +8,7 @@ use super::state::GridState;
 use super::strength::Strength;
 use super::vectors::copy;
 use crate::axes::PerAxis;
-use crate::contact::problem::{Influence, LineProblem};
+use crate::contact::problem::LineProblem;
 use nalgebra::DVector;
 
 /// Known part of one problem; nothing in it changes while the forces are sought.
@@ -17,10 +18,15 @@ pub struct KnownPart {
     pub gap: Vec<f64>,
     /// Known part of `d_t` of the tangential gap [m/s].
     pub slip_offset: Vec<f64>,
-    /// Displacement of wheel and rail without contact forces and without accelerations that are sought \[m].
+    /// Displacement of the ports of wheel and rail without contact forces and without accelerations that are sought \[m].
+    pub ports: [DVector<f64>; 2],
+    /// That of all nodes, with what forces of before and hot layers of the line itself displace \[m].
     pub displacement: [DVector<f64>; 2],
     /// Thermal part of it.
     pub layers: HotLayers,
+    /// Elastic forces on wheel and rail without new forces, x and y of every node [N/m]; empty: the line answers at once.
+    pub elastic: [Vec<f64>; 2],
+    own: OwnDisplacement,
     /// Slope of the depth by which the rail lies below its plane, at the candidates \[1]; empty without any.
     pub rail_slope: Vec<f64>,
     /// Depths by which the surfaces of wheel and rail lie below circle and plane, at the candidates and one node beyond
@@ -33,23 +39,26 @@ pub struct KnownPart {
 }
 
 impl KnownPart {
-    /// Finds all of it under rigid `accelerations` of the wheel that are known; `forces` are the port forces of the
-    /// start.
+    /// Finds all of it but what other lines do, under rigid `accelerations` of the wheel that are known.
     pub fn find(
         &mut self,
         grid: &ContactGrid,
         problem: &LineProblem,
         state: &GridState,
-        forces: &DVector<f64>,
         accelerations: PerAxis<f64>,
     ) {
         rim::sagitta(grid, problem.surfaces.radius, &mut self.sagitta);
-        for (body, known) in self.displacement.iter_mut().enumerate() {
-            copy(known, problem.bodies.free[body]);
-            self.layers.find(grid, problem, body, known);
+        for body in 0..2 {
+            copy(&mut self.ports[body], problem.bodies.free[body]);
+            self.layers.find(grid, problem, body);
         }
         for (axis, acceleration) in accelerations.iter() {
-            self.displacement[0].axpy(acceleration, &problem.bodies.inertial.column(axis.number()), 1.0);
+            self.ports[0].axpy(acceleration, &problem.bodies.inertial.column(axis.number()), 1.0);
+        }
+        for body in 0..2 {
+            grid.expand(&self.ports[body], &mut self.displacement[body]);
+            self.layers.add_to(body, &mut self.displacement[body]);
+            self.relax(grid, problem, state, body);
         }
         self.gap.clear();
         let layers = &self.layers;
@@ -59,15 +68,27 @@ impl KnownPart {
         }));
         self.slip_offset.clear();
         self.slip_offset.extend(state.tangential_gap.iter().map(|h| h.offset(&problem.time)));
-        self.strength.find(grid, &problem.limits, forces, &state.across.force);
+        self.strength.find(grid, &problem.limits, &state.forces, &state.across.force);
         self.find_unevenness(grid, problem);
     }
 
-    /// Adds the displacements by the `pull` of other lines' hot layers on wheel and rail, at the candidates [N/m].
-    pub fn add_pulls_of_others(&mut self, grid: &ContactGrid, others: &Influence, pull: &[Vec<f64>; 2]) {
-        for (body, pull) in pull.iter().enumerate().filter(|(_, pull)| !pull.is_empty()) {
-            self.layers.add_pull(grid, others.compliance[body], body, pull, &mut self.displacement[body]);
-        }
+    /// Adds the displacement of a body's `ports` by the hot layers of all lines \[m].
+    pub fn add_pulled(&mut self, grid: &ContactGrid, body: usize, ports: &DVector<f64>) {
+        self.ports[body] += ports;
+        self.layers.moved_by_bodies(grid, body, ports, &mut self.displacement[body]);
+    }
+
+    /// Takes the elastic forces without new forces, where the flexibility of the line is retarded, and adds their displacement.
+    fn relax(&mut self, grid: &ContactGrid, problem: &LineProblem, state: &GridState, body: usize) {
+        let Self { elastic, own, displacement, .. } = self;
+        elastic[body].clear();
+        let Some(layer) = problem.bodies.retarded[body] else { return };
+        let (factor, histories) = (-layer.time * layer.share, &state.elastic[body]);
+        elastic[body].extend(histories.iter().map(|history| factor * history.offset(&problem.time)));
+        // A state without forces yet is at rest.
+        elastic[body].resize(grid.components(), 0.0);
+        Alone { kernel: problem.kernel, grid }.find(&elastic[body], own);
+        own.add_to(body, &mut displacement[body]);
     }
 
     /// Adds the depths of wheel and rail below circle and plane to the gap, and takes the slope of the rail.

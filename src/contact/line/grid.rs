@@ -1,6 +1,9 @@
 //! Surface nodes at which contact is looked for.
 
-use nalgebra::DVector;
+use super::kernel::logarithms;
+use crate::linalg::{Lagrange, POINTS};
+use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
 
 /// Relative deviation within which a cell counts as one of the uniform ones: round-off of the positions.
 const ROUND_OFF: f64 = 1e-9;
@@ -21,11 +24,17 @@ pub struct ContactGrid {
     nodes: Vec<f64>,
     /// Lengths of the cells between neighbouring nodes [m].
     cells: Vec<f64>,
+    /// Points of the polynomials by which the bodies see the nodes.
+    pub points: Lagrange,
+    /// Values of these polynomials at all nodes.
+    pub values: Arc<[[f64; POINTS]]>,
+    /// Logarithms of the distances of all nodes, see [`logarithms`] \[1].
+    pub logarithms: Arc<DMatrix<f64>>,
 }
 
 impl ContactGrid {
     /// A grid of all `nodes` \[m], x ascending, the outermost `guard` of which on each side are guards; `spacing` is
-    /// that in the middle \[m].
+    /// that in the middle \[m]. The polynomials of the bodies reach to the outermost candidates.
     pub fn new(nodes: Vec<f64>, spacing: f64, guard: usize) -> Self {
         let length = |pair: &[f64]| match pair[1] - pair[0] {
             cell if (cell - spacing).abs() < ROUND_OFF * spacing => spacing,
@@ -33,7 +42,19 @@ impl ContactGrid {
         };
         let cells = nodes.windows(2).map(length).collect();
         let x = nodes.get(guard..nodes.len().saturating_sub(guard)).unwrap_or_default().to_vec();
-        Self { x, spacing, guard, nodes, cells }
+        let points = Lagrange::new(x.last().copied().unwrap_or(spacing));
+        let logarithms = Arc::new(logarithms(&nodes, spacing));
+        Self { x, spacing, guard, nodes, cells, values: Arc::new([]), logarithms, points }.seen_by_points()
+    }
+
+    /// This grid under bodies whose polynomials reach to the distance `reach` \[m] from the middle.
+    pub fn under(self, reach: f64) -> Self {
+        Self { points: Lagrange::new(reach), ..self }.seen_by_points()
+    }
+
+    fn seen_by_points(mut self) -> Self {
+        self.values = self.nodes.iter().map(|x| self.points.values(*x)).collect();
+        self
     }
 
     /// A grid of uniformly spaced candidates `x` \[m], ascending, with guards at the same spacing \[m].
@@ -41,7 +62,8 @@ impl ContactGrid {
         let (first, last) = (x.first().copied().unwrap_or(0.0), x.last().copied().unwrap_or(0.0));
         let below = (1..=guard).rev().map(|k| first - k as f64 * spacing);
         let nodes = below.chain(x.iter().copied()).chain((1..=guard).map(|k| last + k as f64 * spacing)).collect();
-        Self { x, ..Self::new(nodes, spacing, guard) }
+        let points = Lagrange::new(last);
+        Self { x, points, ..Self::new(nodes, spacing, guard) }.seen_by_points()
     }
 
     /// Number of candidates.
@@ -54,14 +76,46 @@ impl ContactGrid {
         self.x.is_empty()
     }
 
-    /// Number of ports, the surface displacement components: `2·(candidates + 2·guard)`.
-    pub fn ports(&self) -> usize {
+    /// Number of the components x and y of all nodes: `2·(candidates + 2·guard)`.
+    pub fn components(&self) -> usize {
         2 * (self.len() + 2 * self.guard)
     }
 
-    /// Port of the x component of candidate `i`; y follows it.
-    pub fn port(&self, i: usize) -> usize {
+    /// Place of the component x of candidate `i` among those of all nodes; y follows it.
+    pub fn component(&self, i: usize) -> usize {
         2 * (i + self.guard)
+    }
+
+    /// Writes the displacements of all nodes that belong to those of the bodies' `ports`, x and y of every point \[m].
+    pub fn expand(&self, ports: &DVector<f64>, displacement: &mut DVector<f64>) {
+        if displacement.len() != self.components() {
+            *displacement = DVector::zeros(self.components());
+        }
+        displacement.fill(0.0);
+        self.add_expanded(ports, displacement);
+    }
+
+    /// Adds the displacements of all nodes that belong to those of the bodies' `ports`.
+    pub fn add_expanded(&self, ports: &DVector<f64>, displacement: &mut DVector<f64>) {
+        let points = ports.as_slice().as_chunks::<2>().0;
+        for (node, values) in displacement.as_mut_slice().as_chunks_mut::<2>().0.iter_mut().zip(&*self.values) {
+            for (value, [x, y]) in values.iter().zip(points) {
+                node[0] += value * x;
+                node[1] += value * y;
+            }
+        }
+    }
+
+    /// Moments with all polynomials of the bodies, x and y of every point, of forces at all nodes [N/m].
+    pub fn moments(&self, forces: &[f64]) -> DVector<f64> {
+        let mut moments = DVector::zeros(2 * POINTS);
+        for (values, [x, y]) in self.values.iter().zip(forces.as_chunks::<2>().0).filter(|(_, f)| **f != [0.0; 2]) {
+            for (value, moment) in values.iter().zip(moments.as_mut_slice().as_chunks_mut::<2>().0) {
+                moment[0] += value * x;
+                moment[1] += value * y;
+            }
+        }
+        moments
     }
 
     /// Positions of all nodes, guards included \[m], ascending.
@@ -80,11 +134,11 @@ impl ContactGrid {
         self.cells[node - 1] + self.cells[node]
     }
 
-    /// Slope at candidate `i` of a displacement of the ports, by central differences \[1]: of its component x (0) or y
+    /// Slope at candidate `i` of a displacement of all nodes, by central differences \[1]: of its component x (0) or y
     /// (1).
     pub fn slope(&self, u: &DVector<f64>, i: usize, component: usize) -> f64 {
-        let port = self.port(i) + component;
-        (u[port + 2] - u[port - 2]) / self.span(i)
+        let at = self.component(i) + component;
+        (u[at + 2] - u[at - 2]) / self.span(i)
     }
 
     /// Width of the surface that belongs to candidate `i` \[m]: a nodal force over it is a traction.
@@ -122,7 +176,7 @@ mod tests {
     fn uniform_grids_have_one_spacing_whatever_the_round_off_of_their_positions() {
         let h = 3.7e-5;
         let grid = ContactGrid::uniform((-30..=30).map(|i| f64::from(i) * h).collect(), h, 3);
-        assert_eq!((grid.ports(), grid.nodes().len()), (134, 67));
+        assert_eq!((grid.components(), grid.nodes().len()), (134, 67));
         assert!((0..grid.len()).all(|i| grid.width(i) == h && grid.cells_beside(i, i % 2 == 0) == [h, h]));
     }
 }

@@ -1,24 +1,23 @@
 //! Displacements, gaps and slips of a line under given forces and rigid motions.
 
+use super::alone::Alone;
 use super::contact_line::{ContactLine, LineIterate};
-use super::others::LineForces;
 use super::rim::RimFrame;
 use super::streamline::UpwindWeights;
 use super::vectors::copy;
-use crate::axes::PerAxis;
-use crate::linalg::vectorised::add_columns;
+use crate::axes::{Axis, PerAxis};
 
 impl ContactLine<'_> {
     /// Ports of the candidate nodes that an upwind difference at node `i` touches, with the weights of `∂u/∂x` [1/m].
     pub fn stencil(&self, i: usize, row: UpwindWeights, to_right: bool) -> [(usize, f64); 3] {
-        let (port, step) = (self.grid.port(i) as isize, if to_right { 2 } else { -2 });
+        let (port, step) = (self.grid.component(i) as isize, if to_right { 2 } else { -2 });
         let weights = row.stencil(to_right, self.grid.cells_beside(i, to_right));
         std::array::from_fn(|k| ((port + k as isize * step) as usize, weights[k]))
     }
 
     /// Upwind derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
     pub fn stretches(&self, i: usize, row: UpwindWeights, to_right: bool) -> [f64; 2] {
-        let [wheel, rail] = &self.traction.surface;
+        let [wheel, rail] = &self.state.surface;
         let stencil = self.stencil(i, row, to_right);
         let by_layer = stencil.iter().map(|(port, weight)| weight * self.moved_by_layer(*port)).sum::<f64>();
         let by_lines = self.stretch_by_lines(i) + 0.5 * by_layer;
@@ -30,8 +29,8 @@ impl ContactLine<'_> {
 
     /// Centred derivatives `∂û_x/∂x` of the surfaces of wheel and rail at candidate `i`.
     fn centred_stretches(&self, i: usize) -> [f64; 2] {
-        let port = self.grid.port(i);
-        let [wheel, rail] = &self.traction.surface;
+        let port = self.grid.component(i);
+        let [wheel, rail] = &self.state.surface;
         let turned = self.frame.tangential(wheel, port + 2) - self.frame.tangential(wheel, port - 2);
         let by_layer = self.moved_by_layer(port + 2) - self.moved_by_layer(port - 2);
         let by_lines = self.stretch_by_lines(i) + 0.5 * by_layer / self.grid.span(i);
@@ -40,13 +39,13 @@ impl ContactLine<'_> {
 
     /// Takes the rim angle that belongs to the surface displacements at hand.
     pub fn take_surface_angle(&mut self) {
-        self.surface_angle = self.frame.angle_of(&self.traction.surface[0], &self.traction.port_forces);
+        self.surface_angle = self.frame.angle_of(&self.state.surface[0], &self.state.forces);
     }
 
     /// Takes the rim angle as a function of the forces, about the present iterate.
     pub fn update_rim(&mut self) {
-        let Self { frame, problem, given, traction, iterate, .. } = self;
-        iterate.rim.update(frame, problem, &given.displacement[0], &traction.port_forces);
+        let Self { frame, problem, given, state, iterate, kernel, .. } = self;
+        iterate.rim.update(frame, (problem, kernel), &given.displacement[0], &state.forces);
     }
 
     /// Displacements, exact (bilinear) slips and gaps of the present forces and rigid motions; `accelerations` are
@@ -61,9 +60,9 @@ impl ContactLine<'_> {
         let (v_c, rim, to_right) =
             (problem.radius() * self.traction.rigid.rotation + turning, self.rim_velocity(), self.upstream_right());
         for i in 0..grid.len() {
-            let port = grid.port(i);
-            let [u_c, u_p] = &self.traction.surface;
-            let excess = || self.traction.port_forces[port + 1] - self.given.strength.limit[i];
+            let port = grid.component(i);
+            let [u_c, u_p] = &self.state.surface;
+            let excess = || self.state.forces[port + 1] - self.given.strength.limit[i];
             self.iterate.overlap[i] = if self.state.yielded[i] { self.creep(i) * excess() } else { 0.0 };
             if self.state.status[i].is_active() {
                 let relative = u_c[port] - u_p[port] + self.moved_by_lines(i) + self.moved_by_layer(port);
@@ -82,6 +81,17 @@ impl ContactLine<'_> {
         }
     }
 
+    /// Gaps at open candidates under the present displacements and weights of the rim angle.
+    pub fn take_gaps(&mut self) {
+        let [wheel, rail] = &self.state.surface;
+        let (angle, height) = (self.iterate.rim.value, self.traction.rigid.height);
+        for i in 0..self.grid.len() {
+            let at = self.grid.component(i) + 1;
+            let parted = self.given.gap[i] + wheel[at] - angle * self.grid.x[i] - rail[at] + height;
+            self.state.gap[i] = if self.state.status[i].is_active() { 0.0 } else { parted };
+        }
+    }
+
     /// Displacements of the present forces, and the height that lever arms lack; `accelerations` as in [`Self::evaluate`].
     pub fn follow_forces(&mut self, accelerations: PerAxis<Option<f64>>) {
         self.displace(accelerations);
@@ -90,54 +100,43 @@ impl ContactLine<'_> {
 
     /// Displacements of both surfaces, and the value of the affine rim angle.
     fn displace(&mut self, accelerations: PerAxis<Option<f64>>) {
-        let Self { problem, given, traction, iterate, .. } = self;
-        let LineIterate { others, rim, displaced, .. } = &mut **iterate;
+        let Self { grid, problem, given, state, traction, iterate, kernel, .. } = self;
+        let LineIterate { all, rim, own, .. } = &mut **iterate;
         let bodies = &problem.bodies;
-        let own = LineForces { contact: &traction.port_forces, pull: &given.layers.pull };
-        let forces = others.mean(problem.share, own).contact.as_slice();
-        let first = forces.iter().position(|force| *force != 0.0).unwrap_or(forces.len());
-        let loaded = first..forces.iter().rposition(|force| *force != 0.0).map_or(first, |last| last + 1);
+        rim.value = rim.constant + rim.by_ports.dot(&all.contact) + rim.by_own(grid, &state.forces);
         for (body, sign) in [(0, 1.0), (1, -1.0)] {
-            let surface = &mut traction.surface[body];
-            copy(surface, &given.displacement[body]);
-            let columns =
-                &bodies.shared.compliance[body].as_slice()[loaded.start * surface.len()..loaded.end * surface.len()];
-            add_columns(sign, columns, surface.len(), &forces[loaded.clone()], surface.as_mut_slice());
-        }
-        rim.value = rim.constant + rim.shared.iter().zip(forces).map(|(t, f)| t * f).sum::<f64>();
-        if let Some(alone) = problem.alone() {
-            let [forces, displaced] = displaced;
-            for component in 0..2 {
-                forces.clear();
-                forces.extend(traction.port_forces.iter().skip(component).step_by(2));
-                alone.displace(component, 0, forces, displaced);
-                for (surface, sign) in traction.surface.iter_mut().zip([1.0, -1.0]) {
-                    let nodes = surface.as_mut_slice().as_chunks_mut::<2>().0;
-                    nodes.iter_mut().zip(&*displaced).for_each(|(node, moved)| node[component] += sign * moved);
-                }
-                if component == 0 {
-                    rim.value += rim.alone.iter().zip(&*forces).map(|(t, f)| t * f).sum::<f64>();
-                }
-            }
+            let ports = &mut traction.surface[body];
+            copy(ports, &given.ports[body]);
+            ports.gemv(sign, bodies.shared.compliance[body], &all.contact, 1.0);
         }
         for (axis, acceleration) in accelerations.iter() {
             let Some(acceleration) = acceleration else { continue };
             traction.surface[0].axpy(acceleration, &bodies.inertial.column(axis.number()), 1.0);
             rim.value += acceleration * rim.accelerations[axis];
         }
+        Alone { kernel: *kernel, grid }.find(state.forces.as_slice(), own);
+        let [wheel, rail] = &mut state.surface;
+        for (body, surface) in [&mut *wheel, &mut *rail].into_iter().enumerate() {
+            copy(surface, &given.displacement[body]);
+            // What is known of the ports is in the displacements of all nodes.
+            grid.add_expanded(&(&traction.surface[body] - &given.ports[body]), surface);
+        }
+        own.add_between([wheel, rail]);
     }
 
     /// Takes the height that the flexibility of the line alone lacks in lever arms, see [`LineIterate::lift`].
     pub fn lift(&mut self) {
         let (grid, problem, load) = (self.grid, self.problem, self.load_of_all());
+        let alone = Alone { kernel: self.kernel, grid };
         let LineIterate { lift, displaced: [normal, displaced], .. } = &mut *self.iterate;
         lift.clear();
-        let kernel = &problem.kernel;
-        let Some(alone) = problem.alone().filter(|_| kernel.tangential != kernel.normal) else { return };
+        if self.kernel.tangential == self.kernel.normal {
+            return;
+        }
         lift.resize(grid.len(), problem.bodies.lift * load);
-        let first = grid.port(0) / 2;
+        let first = grid.component(0) / 2;
         normal.clear();
-        normal.extend((0..grid.len()).map(|i| self.traction.port_forces[grid.port(i) + 1]));
+        normal.extend((0..grid.len()).map(|i| self.state.forces[grid.component(i) + 1]));
         for (component, sign) in [(0, 1.0), (1, -1.0)] {
             alone.displace(component, first, normal, displaced);
             lift.iter_mut().zip(&displaced[first..]).for_each(|(lift, moved)| *lift += sign * moved);
@@ -151,10 +150,20 @@ impl ContactLine<'_> {
     pub fn lever_arms(&self, i: usize) -> [f64; 2] {
         let frame = RimFrame { rim_angle: self.surface_angle, ..self.frame };
         let (radius, grown) = (self.problem.radius(), self.problem.grown());
-        let (u, port) = (&self.traction.surface[0], self.grid.port(i));
+        let (u, port) = (&self.state.surface[0], self.grid.component(i));
         let lift = self.iterate.lift.get(i).copied().unwrap_or(0.0);
         let along = grown * (self.grid.x[i] + frame.tangential(u, port)) + radius * self.slopes().arm(i);
         [radius - grown * frame.normal(u, i) - grown * lift, along]
+    }
+
+    /// Parts of the balance of an axis that unit tangential and normal forces at candidate `i` have, with the sign of inertia.
+    pub fn pull_of_forces(&self, axis: Axis, i: usize) -> [f64; 2] {
+        match axis {
+            Axis::Travel => [-1.0, -self.slopes().rail(i)],
+            Axis::Height => [0.0, -1.0],
+            Axis::Rotation => self.lever_arms(i),
+            Axis::Lateral => [0.0; 2],
+        }
     }
 
     /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.

@@ -4,8 +4,8 @@
 //! [`GridState`] their states, [`LineHistory`] the history that all discretisations of a line share, [`given`] the
 //! known part of a problem with its [`hot_layers`] and the [`strength`] of the steel, [`contact_line`] the line in the
 //! present iterate, [`kinematics`] its displacements, gaps and slips, [`rows`] the same as affine functions, [`alone`]
-//! the flexibility that it has for itself, [`across`] its lateral direction, [`others`] the forces of the lines beside it and [`exchange`] how they come
-//! there, [`field`] what the lines of a patch do to each other, [`streamline`] the upwind differences of the slip,
+//! the flexibility that it has for itself, [`across`] its lateral direction, [`exchange`] how lines feel the forces of all,
+//! [`field`] what the lines of a patch do to each other, [`streamline`] the upwind differences of the slip,
 //! [`kernel`] the correction of the compliance at grid scale, [`slopes`] the slopes against which pressure pushes,
 //! [`rim`] the frame that turns with the rim, [`retarded`] the forces of retarded layers, [`zone`] the ends of the
 //! grid. Of a solution [`power`] takes the power, [`observe`] the traction, and [`mod@finish`] both. Theory:
@@ -24,7 +24,6 @@ pub(super) mod hot_layers;
 pub mod kernel;
 pub(super) mod kinematics;
 pub mod observe;
-pub(super) mod others;
 pub(super) mod power;
 pub(super) mod retarded;
 pub(super) mod rim;

@@ -6,6 +6,7 @@ use super::streamline::edge_offset;
 use super::strength::Strength;
 use crate::contact::traction::Traction;
 use crate::piecewise::{Interval, Piecewise};
+use nalgebra::DVector;
 use std::ops::Range;
 
 /// Share of the peak above which nodes beside it take part in the fit of the pressure maximum [1].
@@ -17,7 +18,7 @@ const FAR: f64 = 1e6;
 /// Least distance of the end of a profile from the outermost node of a patch [spacings].
 const MARGIN: f64 = 1e-3;
 
-/// Fills patches, profiles and peaks in `traction` from its port forces and friction coefficient, for the `power` of
+/// Fills patches, profiles and peaks in `traction` from forces and friction coefficient, for the `power` of
 /// friction [W/m] and the largest pressure `limit` that the steel bears anywhere \[Pa], and the slip velocities of the
 /// candidates with centred differences, along and across [m/s].
 pub fn read_off(
@@ -27,11 +28,11 @@ pub fn read_off(
     [centred_slip, centred_across]: [&[f64]; 2],
     traction: &mut Traction,
 ) {
-    let forces = &traction.port_forces;
-    let tangential = |i: usize| forces[grid.port(i)];
+    let forces = &state.forces;
+    let tangential = |i: usize| forces[grid.component(i)];
     let lateral = |i: usize| state.across.force.get(i).copied().unwrap_or(0.0);
     let shear = |i: usize| if lateral(i) == 0.0 { tangential(i).abs() } else { libm::hypot(tangential(i), lateral(i)) };
-    let normal = |i: usize| forces[grid.port(i) + 1];
+    let normal = |i: usize| forces[grid.component(i) + 1];
     traction.pressure_max = pressure_peak(grid, &state.yielded, normal, limit);
     traction.edges.clear();
     traction.conducting.clear();
@@ -100,9 +101,9 @@ pub(in crate::contact) fn springing_work(
     grid: &ContactGrid,
     overlap: &[f64],
     limit: &[f64],
-    traction: &Traction,
+    forces: &DVector<f64>,
 ) -> f64 {
-    let mean = |i: usize, limit: f64| 0.5 * (limit + traction.port_forces[grid.port(i) + 1]);
+    let mean = |i: usize, limit: f64| 0.5 * (limit + forces[grid.component(i) + 1]);
     let of_node = |(i, (depth, limit)): (usize, (&f64, &f64))| if *depth > 0.0 { depth * mean(i, *limit) } else { 0.0 };
     overlap.iter().zip(limit).enumerate().map(of_node).sum()
 }

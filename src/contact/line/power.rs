@@ -11,17 +11,17 @@ impl ContactLine<'_> {
     /// impulse of every force times the mean velocity.
     pub fn take_friction_power(&mut self) -> [f64; 2] {
         let rest = self.slope_power() - self.expansion();
-        let Self { grid, problem, traction, iterate, history, state, .. } = self;
+        let Self { grid, problem, iterate, history, state, .. } = self;
         let of_node = |place: usize| match place.checked_sub(grid.len()) {
             Some(i) => [state.across.force[i], iterate.across.centred_slip[i]],
-            None => [traction.port_forces[grid.port(place)], iterate.centred_slip[place]],
+            None => [state.forces[grid.component(place)], iterate.centred_slip[place]],
         };
         history.friction.advance(&problem.time, rest, of_node)
     }
 
     /// Power [W/m] of pressure on the slope of the deformed rail where the surfaces slide over each other.
     fn slope_power(&self) -> f64 {
-        let rail = &self.traction.surface[1];
+        let rail = &self.state.surface[1];
         let slope = |i: usize| self.grid.slope(rail, i, 1) + self.swelling_slope(1, i);
         let load: f64 = (0..self.grid.len()).map(|i| self.normal(i) * slope(i)).sum();
         (self.rim_velocity() - self.traction.rigid.travel) * (load + self.iterate.retarded.force[1])
@@ -39,7 +39,7 @@ impl ContactLine<'_> {
         let membrane = |body: usize| -> f64 {
             let u = &self.given.layers.membrane[body];
             let of_node = |i: usize| {
-                let (tangential, normal, port) = (self.tangential(i), self.normal(i), self.grid.port(i));
+                let (tangential, normal, port) = (self.tangential(i), self.normal(i), self.grid.component(i));
                 let straight = tangential * self.grid.slope(u, i, 0) + normal * self.grid.slope(u, i, 1);
                 let turned = tangential * u[port + 1] - normal * u[port];
                 velocity[body] * straight + if body == 0 { turning * turned } else { 0.0 }

@@ -6,10 +6,12 @@
 //! rim*, `û = u − θ (√(r² − x²), x)`, where `θ` makes the pressure-weighted mean of `û_x` vanish. The material passes
 //! the contact with the velocity of the rim, `r (Ω − θ̇)`. Derivation: `docs/theory/lever-arms.md`.
 
+use super::alone::{Alone, signs};
 use super::grid::ContactGrid;
 use crate::axes::PerAxis;
+use crate::contact::kernel::LineKernel;
 use crate::contact::problem::LineProblem;
-use crate::linalg::vectorised::add_columns;
+use crate::linalg::POINTS;
 use nalgebra::DVector;
 
 /// Displacements of the wheel surface as seen from the turned rim.
@@ -32,7 +34,7 @@ impl RimFrame<'_> {
 
     /// `û_y` [m] at candidate `i`.
     pub fn normal(&self, u: &DVector<f64>, i: usize) -> f64 {
-        u[self.grid.port(i) + 1] - self.rim_angle * self.grid.x[i]
+        u[self.grid.component(i) + 1] - self.rim_angle * self.grid.x[i]
     }
 
     /// Angle [rad] at which the mean of `û_x`, weighted with the nodal normal `forces`, vanishes; without any, that at
@@ -44,12 +46,12 @@ impl RimFrame<'_> {
     /// Weights of the displacements at the x ports in this angle [1/m].
     pub fn weights(&self, forces: &DVector<f64>) -> impl Iterator<Item = (usize, f64)> {
         let grid = self.grid;
-        let normal = move |i: usize| forces[grid.port(i) + 1].max(0.0);
-        let arm = |i: usize| self.radius - self.sagitta[grid.port(i) / 2];
+        let normal = move |i: usize| forces[grid.component(i) + 1].max(0.0);
+        let arm = |i: usize| self.radius - self.sagitta[grid.component(i) / 2];
         let sum: f64 = (0..grid.len()).map(|i| normal(i) * arm(i)).sum();
-        let middle = (sum == 0.0).then(|| (grid.port(grid.len() / 2), 1.0 / self.radius));
+        let middle = (sum == 0.0).then(|| (grid.component(grid.len() / 2), 1.0 / self.radius));
         let loaded = (0..grid.len()).filter(move |&i| normal(i) > 0.0);
-        loaded.map(move |i| (grid.port(i), normal(i) / sum)).chain(middle)
+        loaded.map(move |i| (grid.component(i), normal(i) / sum)).chain(middle)
     }
 }
 
@@ -62,53 +64,57 @@ pub(in crate::contact) fn sagitta(grid: &ContactGrid, radius: f64, heights: &mut
 /// Rim angle as an affine function of port forces and rigid accelerations.
 #[derive(Default)]
 pub struct RimAngleRow {
-    /// Coefficients of all port forces by which the bodies are displaced [rad/(N/m)].
-    pub shared: Vec<f64>,
-    /// Those of the tangential forces of the line at all nodes besides, by the flexibility that it has for itself;
-    /// empty: it has none.
-    pub alone: Vec<f64>,
+    /// Coefficients of the forces of all lines on the ports [rad/(N/m)].
+    pub by_ports: DVector<f64>,
+    /// Those of the tangential and of the normal forces of the line at all nodes, by the flexibility that it has for itself.
+    pub tangential: Vec<f64>,
+    pub normal: Vec<f64>,
     /// Coefficients of the accelerations of the rigid motions [rad/(m/s²), rad/(rad/s²)].
     pub accelerations: PerAxis<f64>,
     /// Constant \[rad].
     pub constant: f64,
     /// Its value in the present solution, with the weights of the one before \[rad].
     pub value: f64,
-    /// Weights of the displacements at the tangential ports from the first loaded one on [1/m].
+    /// Weights of the displacements along at all nodes [1/m].
     weights: Vec<f64>,
 }
 
 impl RimAngleRow {
     /// Takes the mean of [`RimFrame::angle_of`] with the weights of the present port `forces`; `known`: displacement of
     /// the wheel without contact forces and without accelerations that are sought \[m].
-    pub fn update(&mut self, frame: &RimFrame, problem: &LineProblem, known: &DVector<f64>, forces: &DVector<f64>) {
-        let (ports, bodies) = (frame.grid.ports(), &problem.bodies);
-        self.shared.clear();
-        self.shared.resize(ports, 0.0);
-        (self.accelerations, self.constant) = (PerAxis::default(), 0.0);
+    pub fn update(
+        &mut self,
+        frame: &RimFrame,
+        (problem, kernel): (&LineProblem, &LineKernel),
+        known: &DVector<f64>,
+        forces: &DVector<f64>,
+    ) {
+        let (grid, bodies) = (frame.grid, &problem.bodies);
+        self.constant = 0.0;
         self.weights.clear();
-        let mut first = 0;
-        for (port, weight) in frame.weights(forces) {
-            if self.weights.is_empty() {
-                first = port;
-            }
-            // Nodes without force weigh nothing.
-            self.weights.resize((port - first) / 2, 0.0);
-            self.weights.push(weight);
-            self.accelerations.add(weight, bodies.inertial_at(port));
-            self.constant += weight * known[port];
+        self.weights.resize(grid.nodes().len(), 0.0);
+        let mut at_points = [0.0; POINTS];
+        for (component, weight) in frame.weights(forces) {
+            self.weights[component / 2] = weight;
+            self.constant += weight * known[component];
+            let values = grid.values[component / 2];
+            at_points.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
         }
-        // Every other column belongs to a normal force.
-        let columns = &bodies.shared.compliance[0].as_slice()[first * ports..];
-        add_columns(1.0, columns, 2 * ports, &self.weights, &mut self.shared);
-        self.alone.clear();
-        if let Some(alone) = problem.alone() {
-            alone.displace(0, first / 2, &self.weights, &mut self.alone);
-        }
+        let at_points = |of: &dyn Fn(usize) -> f64| (0..POINTS).map(|k| at_points[k] * of(2 * k)).sum::<f64>();
+        self.accelerations = PerAxis::from_fn(|axis| at_points(&|port| bodies.inertial_at(port)[axis]));
+        let compliance = bodies.shared.compliance[0];
+        self.by_ports = DVector::from_fn(2 * POINTS, |by, _| at_points(&|port| compliance[(port, by)]));
+        Alone { kernel: *kernel, grid }.displace(0, 0, &self.weights, &mut self.tangential);
+        self.normal.clear();
+        self.normal.extend(signs(&self.weights).map(|sign| 0.5 * kernel.coupling * sign));
     }
 
-    /// Coefficient of the force of the line itself, which has a `share` of the width, at a port [rad/(N/m)].
-    pub fn by_force(&self, share: f64, port: usize) -> f64 {
-        let alone = self.alone.get(port / 2).filter(|_| port.is_multiple_of(2)).copied().unwrap_or(0.0);
-        share * self.shared[port] + alone
+    /// Part of the angle by the line's own `forces` at all nodes \[rad].
+    pub fn by_own(&self, grid: &ContactGrid, forces: &DVector<f64>) -> f64 {
+        let of_candidate = |i: usize| {
+            let (node, at) = (i + grid.guard, grid.component(i));
+            self.tangential[node] * forces[at] + self.normal[node] * forces[at + 1]
+        };
+        (0..grid.len()).map(of_candidate).sum()
     }
 }

@@ -1,6 +1,8 @@
 //! States of the pairs of nodes of a line and the history of their displacements.
 
 use crate::multistep::History;
+use nalgebra::DVector;
+use super::vectors::copy;
 use serde::{Deserialize, Serialize};
 
 /// State of one pair of contact nodes.
@@ -75,6 +77,14 @@ pub struct GridState {
     pub gap: Vec<f64>,
     /// Tangential displacement of the wheel less that of the rail, and its history \[m].
     pub tangential_gap: Vec<History>,
+    /// Contact forces on the wheel, x and y of every node [N/m].
+    pub forces: DVector<f64>,
+    /// Displacements of wheel and rail, x and y of every node \[m].
+    pub surface: [DVector<f64>; 2],
+    /// Pulls of hot layers at the candidates, on wheel and rail [N/m]; empty: there are none.
+    pub pull: [Vec<f64>; 2],
+    /// Elastic forces on wheel and rail, x and y of every node, and their histories [N/m]; empty: the line answers at once.
+    pub elastic: [Vec<History>; 2],
     /// Lateral part.
     pub across: AcrossNodes,
 }
@@ -114,6 +124,10 @@ impl GridState {
         self.slip.clone_from(&other.slip);
         self.gap.clone_from(&other.gap);
         self.tangential_gap.clone_from(&other.tangential_gap);
+        copy(&mut self.forces, &other.forces);
+        self.surface.iter_mut().zip(&other.surface).for_each(|(ours, theirs)| copy(ours, theirs));
+        self.pull.iter_mut().zip(&other.pull).for_each(|(ours, theirs)| ours.clone_from(theirs));
+        self.elastic.iter_mut().zip(&other.elastic).for_each(|(ours, theirs)| ours.clone_from(theirs));
         let (across, other) = (&mut self.across, &other.across);
         across.force.clone_from(&other.force);
         across.slip.clone_from(&other.slip);

@@ -42,11 +42,11 @@ impl Strength {
         [&mut *in_shear, limit, pressed, of_film].into_iter().for_each(Vec::clear);
         if limits.is_limited() {
             in_shear.extend(grid.x.iter().enumerate().map(|(i, &x)| grid.width(i) * limits.strength_at(x)));
-            pressed.extend((0..grid.len()).map(|i| forces[grid.port(i) + 1]));
+            pressed.extend((0..grid.len()).map(|i| forces[grid.component(i) + 1]));
             let across = |i: usize| lateral.get(i).copied().unwrap_or(0.0);
             let sheared = |i: usize| match across(i) {
-                0.0 => forces[grid.port(i)].abs(),
-                lateral => libm::hypot(forces[grid.port(i)], lateral),
+                0.0 => forces[grid.component(i)].abs(),
+                lateral => libm::hypot(forces[grid.component(i)], lateral),
             };
             let ratio = |i: usize| sheared(i) / pressed[i];
             // Nodes that close take the shear of the nearest ones.

@@ -12,11 +12,10 @@ use crate::axes::PerAxis;
 use crate::contact::error::ContactError;
 use crate::contact::line::LineHistory;
 use crate::contact::problem::{ContactProblem, LineProblem, OneLine, RigidMotion, Spin};
-use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, Ports, SolverState};
+use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, SolverState};
 use crate::contact::traction::Traction;
 use crate::linalg::{Lagrange, POINTS};
 use crate::piecewise::Interval;
-use nalgebra::DVector;
 use std::hash::{Hash, Hasher};
 
 /// Shortest way of the material in a step, over the half-width of the patch \[1]: below, the series do not resolve what
@@ -137,7 +136,6 @@ impl SeriesSolver {
                 other => *other = SolverState::Series(Box::new(begun.before.clone())),
             }
             found.history.copy_from(&start.history);
-            found.ports = start.ports;
         }
         let ContactScratch { series, linear_laws, .. } = scratch;
         laws::solve(&self.constants, problem, &begun, series, |contact| {
@@ -146,6 +144,7 @@ impl SeriesSolver {
                 let ContactState { traction, history, energy, solver, .. } = &mut **found;
                 let SolverState::Series(state) = solver else { continue };
                 *energy = finish::finish(line, contact.growth(at), state, history, traction);
+                traction.pull_work = traction.work_of_pulls_since(&start[at].traction);
             }
         })?;
         for ((line, found), begun) in problem.lines.iter().zip(&*found).zip(&begun) {
@@ -180,11 +179,8 @@ impl ContactSolver for SeriesSolver {
         let tractions = Tractions { pressure, slide: 1.0, stick, directions: None, lateral: Arch::default() };
         let past = [(); 2].map(|()| Past::Series(SeriesPast::default()));
         let state = SeriesState { tractions, past, ..SeriesState::default() };
-        let zeros = || DVector::zeros(2 * POINTS);
-        let [loads, surface] = [(); 2].map(|()| [zeros(), zeros()]);
         ContactState {
-            ports: Ports::Smooth,
-            traction: Traction { port_forces: zeros(), loads, surface, ..Traction::default() },
+            traction: Traction::without_forces(),
             history: LineHistory::none(POWER),
             solver: SolverState::Series(Box::new(state)),
             ..ContactState::default()
@@ -203,17 +199,13 @@ impl ContactSolver for SeriesSolver {
 
     fn fits(&self, state: &ContactState) -> bool {
         let Some(series) = state.solver.series() else { return false };
-        let traction = &state.traction;
         let arches = [&series.tractions.pressure, &series.tractions.stick];
-        let vectors = traction.loads.iter().chain(&traction.surface).chain([&traction.port_forces]);
-        state.ports == Ports::Smooth
-            && arches.iter().all(|arch| arch.is_sound())
+        arches.iter().all(|arch| arch.is_sound())
             && series.past.iter().all(Past::is_sound)
             && series.kernel.is_sound()
             && series.uncorrected.is_sound()
             && (state.history.friction.fits(POWER) || state.history.friction.fits(2 * POWER))
-            && vectors.into_iter().all(|values| values.len() == 2 * POINTS)
-            && traction.port_forces.iter().all(|f| f.is_finite())
+            && state.traction.fits()
     }
 
     fn decisions(&self, state: &ContactState, mut into: &mut dyn Hasher) {

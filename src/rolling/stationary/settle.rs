@@ -97,7 +97,7 @@ fn lines(model: &RollingModel, load: f64, at_rest: bool, thermal: Vec<Option<The
         thermal: temperatures.next().flatten(),
     };
     let mut lines: Vec<_> = (0..model.contact.patch.count).map(line).collect();
-    model.contact.patch.lay_out(load * model.wheel.width, lines::ports(&lines), &mut lines);
+    model.contact.patch.lay_out(load * model.wheel.width, lines::on_points(&lines), &mut lines);
     thermal::share_growth(&mut lines);
     lines
 }
@@ -133,7 +133,7 @@ impl Pass<'_> {
         let (model, goal) = (self.model, self.goal);
         self.check_adhesion(state, trial, 1.0)?;
         let td = TimeDerivative::default();
-        let operators = model.bodies.operators(td.a0, state, &mut workspace.operators)?;
+        let operators = model.bodies.operators(td.a0, &mut workspace.operators)?;
         let [velocity, omega] = goal.actual(trial.speeds);
         let streams = [
             Convection { speed: omega, acceleration: trial.accelerations.rotation },

@@ -1,71 +1,24 @@
 //! Coupling of lines and free motions, as polynomials.
 //!
-//! The bodies pass on forces smoothly, so that slips by forces of other lines, slips by motions and parts in the balances
-//! are taken at a few nodes and interpolated. What that leaves out comes back with the exact slips of the next turn.
+//! The bodies pass on forces as polynomials. What that leaves out of motions and balances comes back with the exact slips of
+//! the next turn.
 
 use super::super::search::ActiveSet;
 use crate::axes::{Axis, PerAxis};
 use crate::contact::cone::{ByPolynomials, FreeMotion, Polynomials, TangentialCoupling};
 use crate::contact::flexibility::{Between, ByMoments, ByPowers, slip_of_field};
 use crate::contact::line::contact_line::ContactLine;
-use crate::linalg::vectorised::dot;
-use crate::linalg::{DenseSystem, POINTS};
-use std::f64::consts::PI;
+use crate::contact::problem::Influence;
+use crate::linalg::POINTS;
 
 /// Least force by which balances are judged, over the nominal load \[1]: lines may carry nothing.
 const LEAST_FRICTION: f64 = 1e-3;
 
-/// Nodes of a line by whose values polynomials are found, and how they are.
-struct Sampled {
-    nodes: Vec<usize>,
-    /// Coefficients of the polynomial by a unit value at each of the nodes.
-    by_values: Vec<ByPowers>,
-}
-
-impl Sampled {
-    /// Nodes next to Chebyshev's places on the line.
-    fn new(line: &ContactLine) -> Self {
-        let (x, half_length) = (&line.grid.x, line.problem.patch.map_or(1.0, |patch| patch.half_length));
-        let places = (0..POINTS).map(|k| -half_length * libm::cos((k as f64 + 0.5) * PI / POINTS as f64));
-        let mut nodes: Vec<usize> =
-            places.map(|place| x.partition_point(|x| *x < place - 0.5 * line.grid.spacing).min(x.len() - 1)).collect();
-        nodes.dedup();
-        let count = nodes.len();
-        let mut system = DenseSystem::default();
-        system.reset(count);
-        for (r, &i) in nodes.iter().enumerate() {
-            let powers = line.problem.patch.map_or([0.0; POINTS], |patch| patch.powers(x[i]));
-            system.row(r).0.copy_from_slice(&powers[..count]);
-        }
-        let mut by_values = vec![ByPowers::default(); count];
-        if system.factorise() {
-            for (node, by_value) in by_values.iter_mut().enumerate() {
-                let mut values = vec![0.0; count];
-                values[node] = 1.0;
-                if system.solve_with(&mut values) {
-                    by_value[..count].copy_from_slice(&values);
-                }
-            }
-        }
-        Self { nodes, by_values }
-    }
-
-    /// Coefficients of the polynomial with given values at the nodes.
-    fn polynomial(&self, value: impl Fn(usize) -> f64) -> ByPowers {
-        let mut sum = ByPowers::default();
-        for (&node, by_value) in self.nodes.iter().zip(&self.by_values) {
-            let value = value(node);
-            sum.iter_mut().zip(by_value).for_each(|(sum, by)| *sum += value * by);
-        }
-        sum
-    }
-}
-
-/// Smooth slips of a line and what it takes from motions.
+/// What a line feels of bodies and motions, as polynomials of the place over its half-length.
 struct SmoothSlips {
-    sampled: Sampled,
-    /// Slips along at the nodes by unit forces on the bodies at all ports, row by row [m/s/(N/m)].
-    by_bodies: Vec<Vec<f64>>,
+    half_length: f64,
+    /// Slips along by unit forces on the ports along [m/s/(N/m)].
+    by_ports: [ByPowers; POINTS],
     /// Slips along by unit motions.
     by_motions: PerAxis<ByPowers>,
 }
@@ -95,17 +48,8 @@ impl ActiveSet<'_> {
         coupling.base = self.lines[0].traction.rigid;
         coupling.friction = self.friction_of_all().max(LEAST_FRICTION * self.problem.nominal_load);
         for motion in &mut coupling.motions {
-            motion.missing = -self.residual(motion.axis) - motion.pulls(moments);
+            motion.missing = -self.axes.residual(motion.axis, &self.lines) - motion.pulls(moments);
         }
-    }
-
-    /// Residual of the balance of a motion in the present iterate [N/m, N].
-    fn residual(&mut self, axis: Axis) -> f64 {
-        let Self { lines, axes, memory, .. } = self;
-        let balance = axes.row(axis, lines, &mut memory.rows);
-        let by_forces = |(line, row): (&ContactLine, &Vec<f64>)| dot(row, line.traction.port_forces.as_slice());
-        let of_forces: f64 = lines.iter().zip(&memory.rows).map(by_forces).sum();
-        balance.constant + balance.motions.dot(lines[0].traction.rigid) + of_forces
     }
 
     /// Force of friction that all lines together bear [N/m].
@@ -116,17 +60,30 @@ impl ActiveSet<'_> {
         self.lines.iter().map(of_line).sum()
     }
 
+    /// Bodies carry their polynomials through the contact as they are; the frame that turns with the rim bends them by little,
+    /// which comes back with the exact slips.
     fn smooth_slips(&self, line: &ContactLine) -> SmoothSlips {
-        let sampled = Sampled::new(line);
-        let all = 0..line.grid.ports();
-        let by_bodies = |&i: &usize| {
-            let mut forces = vec![0.0; line.grid.ports()];
-            line.slip_by_shared(i, 1.0, all.clone(), &mut forces);
-            forces
+        let half_length = line.problem.patch.map_or(1.0, |patch| patch.half_length);
+        let (points, bodies) = (&line.grid.points, &line.problem.bodies);
+        let (v, velocity, gain) = (line.traction.rigid.travel, line.rim_velocity(), line.problem.time.a0);
+        let slip = |moved: [f64; POINTS], carried: [f64; POINTS]| {
+            let slopes = points.polynomial(&carried).derivative().by_powers(half_length);
+            let rates = points.polynomial(&moved).by_powers(half_length);
+            std::array::from_fn(|k| gain * rates[k] - slopes[k])
         };
-        let equation = |i: usize| self.axes.equation(line.add_slip(i, 0..0, &mut [])).motions;
-        let by_motions = PerAxis::from_fn(|axis| sampled.polynomial(|i| equation(i)[axis]));
-        SmoothSlips { by_bodies: sampled.nodes.iter().map(by_bodies).collect(), by_motions, sampled }
+        let by_port = |port: usize| {
+            let Influence { compliance: [wheel, rail], relative } = bodies.shared;
+            let carried = |k: usize| velocity * wheel[(2 * k, 2 * port)] + v * rail[(2 * k, 2 * port)];
+            slip(std::array::from_fn(|k| relative[(2 * k, 2 * port)]), std::array::from_fn(carried))
+        };
+        let by_motion = |axis: Axis| {
+            let moved: [f64; POINTS] =
+                std::array::from_fn(|k| self.axes.gain(axis) * bodies.inertial[(2 * k, axis.number())]);
+            let mut slip = slip(moved, moved.map(|moved| velocity * moved));
+            slip[0] += line.problem.sliding(axis) - line.problem.position * self.problem.spin.by(axis);
+            slip
+        };
+        SmoothSlips { half_length, by_ports: std::array::from_fn(by_port), by_motions: PerAxis::from_fn(by_motion) }
     }
 
     /// Slips of every line by unit moments of every other one: through the bodies, and as lines of a patch. A line itself
@@ -139,7 +96,7 @@ impl ActiveSet<'_> {
                 let (line, other) = (&self.lines[at], &self.lines[by]);
                 let mut slips = ByPolynomials::default();
                 if at != by {
-                    let by_bodies = through_bodies(line, &smooth[at], other, &smooth[by]);
+                    let by_bodies = through_bodies(&smooth[at], (other, &smooth[by]));
                     add(&by_bodies, [0, 0], &mut slips);
                 }
                 let Some(patch) = line.problem.patch else { return slips };
@@ -162,11 +119,16 @@ impl ActiveSet<'_> {
 
     /// A motion that is free, about the present iterate.
     fn free_motion(&mut self, axis: Axis, smooth: &[SmoothSlips]) -> FreeMotion<2> {
-        let Self { lines, axes, memory, problem, .. } = self;
-        let resistance = axes.row(axis, lines, &mut memory.rows).motions;
-        let pull = |((line, smooth), row): ((&ContactLine, &SmoothSlips), &Vec<f64>)| match axis {
+        let Self { lines, axes, problem, .. } = self;
+        let balance = axes.row(axis, lines);
+        let pull = |(line, smooth): (&ContactLine, &SmoothSlips)| match axis {
             Axis::Lateral => [ByPowers::default(), first_two([line.problem.share, 0.0])],
-            _ => [smooth.sampled.polynomial(|i| -row[line.grid.port(i)]), ByPowers::default()],
+            _ => {
+                let arm = mean_pull(line, axis);
+                let momentum = std::array::from_fn(|k| balance.ports[2 * k] + arm);
+                let polynomial = line.grid.points.polynomial(&momentum).by_powers(smooth.half_length);
+                [polynomial.map(|c| -line.problem.share * c), ByPowers::default()]
+            }
         };
         let slip = |(line, smooth): (&ContactLine, &SmoothSlips)| {
             let turned = problem.spin.by(axis) * line.problem.patch.map_or(0.0, |patch| patch.half_length);
@@ -175,8 +137,8 @@ impl ActiveSet<'_> {
         FreeMotion {
             axis,
             slips: lines.iter().zip(smooth).map(slip).collect(),
-            pulls: lines.iter().zip(smooth).zip(&memory.rows).map(pull).collect(),
-            resistance,
+            pulls: lines.iter().zip(smooth).map(pull).collect(),
+            resistance: balance.motions,
             missing: 0.0,
             drawn: [0.0; 2],
         }
@@ -190,15 +152,24 @@ fn first_two([first, second]: [f64; 2]) -> ByPowers {
     polynomial
 }
 
+/// Part of the balance of an axis that tangential forces have on the mean, by normal forces: lever arms hardly differ.
+fn mean_pull(line: &ContactLine, axis: Axis) -> f64 {
+    let loaded = (0..line.grid.len()).filter(|&i| line.normal(i) > 0.0);
+    let [sum, load] = loaded.fold([0.0; 2], |[sum, load], i| {
+        let normal = line.normal(i);
+        [sum + normal * line.pull_of_forces(axis, i)[0], load + normal]
+    });
+    if load > 0.0 { sum / load } else { line.pull_of_forces(axis, line.grid.len() / 2)[0] }
+}
+
 /// Slips along of a line by unit moments of another one through the bodies.
-fn through_bodies(line: &ContactLine, at: &SmoothSlips, other: &ContactLine, by: &SmoothSlips) -> ByMoments {
-    let share = other.problem.share;
-    let of_node = |row: &Vec<f64>| by.sampled.polynomial(|j| share * row[line.grid.port(j)]);
-    let at_nodes: Vec<ByPowers> = at.by_bodies.iter().map(of_node).collect();
+fn through_bodies(at: &SmoothSlips, (other, by): (&ContactLine, &SmoothSlips)) -> ByMoments {
     std::array::from_fn(|moment| {
+        let mut unit = ByPowers::default();
+        unit[moment] = other.problem.share;
         let mut sum = ByPowers::default();
-        for (values, by_value) in at_nodes.iter().zip(&at.sampled.by_values) {
-            sum.iter_mut().zip(by_value).for_each(|(sum, by)| *sum += values[moment] * by);
+        for (slips, force) in at.by_ports.iter().zip(other.grid.points.moments_over(&unit, by.half_length)) {
+            sum.iter_mut().zip(slips).for_each(|(sum, slip)| *sum += force * slip);
         }
         sum
     })

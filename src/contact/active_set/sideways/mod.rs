@@ -28,9 +28,6 @@ const MOST: usize = 120;
 const PRESSED: Thoroughness = Thoroughness { most: 80, together: 30, yields: true };
 /// Violation and change at which coefficients of friction begin to follow their laws \[1].
 const TELLING: f64 = 1e-3;
-/// Way of the material in a step, over the distance of the nodes, at which it stands \[1].
-const STANDS: f64 = 1e-9;
-
 impl ActiveSet<'_> {
     /// Iterates from the states and forces of the start to the solution of a contact with lateral tractions; returns the times
     /// that the law of friction was made linear. Stacks of contacts in one direction have no room for its numbers.
@@ -96,13 +93,6 @@ impl ActiveSet<'_> {
         Err(ContactError::NotConverged { iterations: MOST })
     }
 
-    /// True if the material moves by so little in the step that it does not matter where it comes from.
-    fn stands(&self) -> bool {
-        let moves = |line: &ContactLine| (line.traction.rigid.travel + line.rim_velocity()).abs();
-        let cell = |line: &ContactLine| STANDS * line.problem.time.a0 * line.grid.spacing;
-        self.lines.iter().all(|line| moves(line) < cell(line))
-    }
-
     /// Takes displacements, gaps and slips of the present forces and motions.
     fn evaluate(&mut self) {
         exchange::forces(&mut self.lines);
@@ -122,8 +112,8 @@ impl ActiveSet<'_> {
         if problem.rigid.height.gain == 0.0 && axes.seeks(Axis::Height) {
             states::support(lines);
         }
-        let SearchMemory { pressing, solver, rows, .. } = &mut **memory;
-        let settled = pressing.press(lines, axes, &rules, PRESSED, solver, rows)?;
+        let SearchMemory { pressing, solver, .. } = &mut **memory;
+        let settled = pressing.press(lines, axes, &rules, PRESSED, solver)?;
         for line in lines.iter_mut() {
             for i in 0..line.grid.len() {
                 if !line.state.status[i].is_active() {
@@ -139,9 +129,9 @@ impl ActiveSet<'_> {
 
     /// Takes new states of the brakes; whether any changed.
     fn brakes_change(&mut self) -> bool {
-        let Self { lines, axes, memory, penalties, problem, grid } = self;
+        let Self { lines, axes, penalties, problem, grid, .. } = self;
         let rules = Rules::new(&lines[0], penalties[0], problem.nominal_load, 1.0, false);
-        axes.update_brakes(lines, &mut memory.rows, rules.force * grid.len() as f64)
+        axes.update_brakes(lines, rules.force * grid.len() as f64)
     }
 }
 

@@ -20,8 +20,8 @@ pub fn shears<const N: usize>(line: &ContactLine, nodes: &[usize]) -> ByDirectio
 pub fn give<const N: usize>(line: &mut ContactLine, nodes: &[usize], shear: &ByDirection<N, 2>, states: &[i8; N]) {
     line.state.across.force.fill(0.0);
     for (place, &i) in nodes.iter().enumerate() {
-        let port = line.grid.port(i);
-        line.traction.port_forces[port] = shear[0][place];
+        let port = line.grid.component(i);
+        line.state.forces[port] = shear[0][place];
         line.state.across.force[i] = shear[1][place];
         line.state.status[i] = match states[place] {
             0 => NodeStatus::Stick,
@@ -54,6 +54,11 @@ pub fn take<const N: usize>(
     problem.renew(slips, bears, shear, others);
 }
 
+/// Weight of a new displacement in its rate [1/s], and the sum of the speeds that carry strain [m/s].
+fn rates(line: &ContactLine) -> [f64; 2] {
+    [line.problem.time.a0, line.traction.rigid.travel + line.rim_velocity()]
+}
+
 /// Slips of the closed `nodes` by their own shear.
 fn slip_rows<const N: usize>(line: &ContactLine, nodes: &[usize]) -> SlipRows<N, 2> {
     let mut rows = SlipRows {
@@ -61,16 +66,22 @@ fn slip_rows<const N: usize>(line: &ContactLine, nodes: &[usize]) -> SlipRows<N,
         known: [[0.0; N]; 2],
         powers: vec![[0.0; N]; POINTS],
     };
-    let (Some(first), Some(last), Some(patch)) = (nodes.first(), nodes.last(), line.problem.patch) else { return rows };
-    let window = line.grid.port(*first)..line.grid.port(*last) + 2;
-    let forces = &mut vec![0.0; line.grid.ports()];
+    let Some(patch) = line.problem.patch else { return rows };
+    let of_moments = patch.own(0).map(|own| own.slips(slip_of_field(rates(line), patch.half_length)));
     for (place, &i) in nodes.iter().enumerate() {
-        line.slip_by_shared(i, line.problem.share, window.clone(), forces);
-        line.add_slip(i, window.clone(), forces);
-        for (by, &j) in nodes.iter().enumerate() {
-            rows.by_shear[0][by][place] = forces[line.grid.port(j)];
-        }
+        let (affine, upwind) = line.slip_row(i);
+        line.slips_by_own(i, &upwind, nodes, |by, slip| rows.by_shear[0][by][place] += slip);
         let powers = patch.powers(line.grid.x[i]);
+        let felt = of_moments.map(|slips| slips.map(|slip| at(&slip, &powers)));
+        for (by, &j) in nodes.iter().enumerate() {
+            let node = j + line.grid.guard;
+            let (values, rim) = (&line.grid.values[node], &line.iterate.rim);
+            let by_port = |(k, value): (usize, &f64)| value * (affine.ports[2 * k] + affine.angle * rim.by_ports[2 * k]);
+            let by_bodies: f64 = values.iter().enumerate().map(by_port).sum();
+            let by_lines = felt.map_or(0.0, |felt| at(&felt, &patch.powers(line.grid.x[j])));
+            rows.by_shear[0][by][place] +=
+                line.problem.share * by_bodies + affine.angle * rim.tangential[node] + by_lines;
+        }
         (0..POINTS).for_each(|k| rows.powers[k][place] = powers[k]);
         slips_across(line, nodes, i, |by, slip| rows.by_shear[1][by][place] = slip);
     }
@@ -79,8 +90,8 @@ fn slip_rows<const N: usize>(line: &ContactLine, nodes: &[usize]) -> SlipRows<N,
 
 /// Hands slips across of a candidate by units of lateral force at the closed `nodes` over, with their places in these.
 fn slips_across(line: &ContactLine, nodes: &[usize], i: usize, mut give: impl FnMut(usize, f64)) {
-    let (rate, speed) = (line.problem.time.a0, line.traction.rigid.travel + line.rim_velocity());
-    let (node, to_right) = (line.grid.port(i) / 2, line.upstream_right());
+    let [rate, speed] = rates(line);
+    let (node, to_right) = (line.grid.component(i) / 2, line.upstream_right());
     let stencil = line.stencil(i, line.iterate.upwind.row(i), to_right);
     let own = line.problem.patch.and_then(|patch| Some((patch, patch.own(1)?)));
     let of_moments = own.map(|(patch, across)| {
