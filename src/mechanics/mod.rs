@@ -37,7 +37,7 @@ pub use full::FullBody;
 pub use layout::{grid_cells_per_element, grid_spacing, nominal_half_width, wheel_inertia, wheel_mass};
 pub use meshes::{rail_mesh, rail_system, wheel_mesh, wheel_system};
 pub use motion::BodyResponse;
-pub use pair::{Pair, SmoothBodies, bodies};
+pub use pair::{Pair, SmoothBodies, WideBodies, bodies};
 pub use reduced::ReducedBody;
 pub use reduction::ReducedBasis;
 pub use response::{BodyState, Convection, FreeResponse, StepOperator};

@@ -11,9 +11,10 @@ use super::reduced::ReducedBody;
 use super::reduction::ReducedBasis;
 use super::refined::divided;
 use super::size::contact_zone;
+use super::smooth::SmoothPorts;
+use crate::analytic::HalfPlane;
 use crate::config::Config;
 use crate::fem::graded::GUARDS;
-use crate::linalg::Lagrange;
 use crate::material::Isotropic;
 use std::ops::Range;
 
@@ -30,10 +31,19 @@ pub struct Pair {
     /// Surface nodes that can carry contact; the others are guards.
     pub candidates: Range<usize>,
     /// These bodies with the paired nodes of the wings on both sides of the ports; `None` without wings.
-    pub wide: Option<Box<Pair>>,
-    /// These bodies less half-planes, for a contact solver that knows those; only reduced bodies without
-    /// stiffness-proportional damping have them.
-    pub smooth: Option<SmoothBodies>,
+    pub wide: Option<WideBodies>,
+    /// These bodies less half-planes, for a contact solver that knows those.
+    pub smooth: SmoothBodies,
+}
+
+/// Wheel and rail with the paired nodes of the wings as well; as many of them are guards.
+pub struct WideBodies {
+    /// The wheel.
+    pub wheel: Box<dyn BodyResponse>,
+    /// The rail.
+    pub rail: Box<dyn BodyResponse>,
+    /// x of the paired surface nodes, ascending \[m].
+    pub surface_x: Vec<f64>,
 }
 
 /// Wheel and rail less half-planes; their ports are the displacements at the points of a polynomial.
@@ -46,10 +56,65 @@ pub struct SmoothBodies {
     pub reach: f64,
 }
 
-impl Pair {
-    fn new(wheel: Box<dyn BodyResponse>, rail: Box<dyn BodyResponse>, surface_x: Vec<f64>, spacing: f64) -> Self {
-        let candidates = GUARDS..surface_x.len() - GUARDS;
-        Self { wheel, rail, surface_x, spacing, candidates, wide: None, smooth: None }
+/// Both bodies behind their common interface.
+type TwoBodies = [Box<dyn BodyResponse>; 2];
+
+/// Which side of their surfaces wheel and rail lie on: the wheel above, the rail below.
+const SIDES: [f64; 2] = [1.0, -1.0];
+
+/// Surface nodes of both bodies, and how they are damped.
+struct Layout<'a> {
+    config: &'a Config,
+    half_plane: HalfPlane,
+    damping: [BodyDamping; 2],
+    /// Nodes of the finite elements, and of the contact grid \[m].
+    elements: Vec<f64>,
+    surface_x: Vec<f64>,
+    /// Components of the grid that are ports of ordinary patches.
+    ports: Range<usize>,
+    /// Points of the bodies less half-planes.
+    points: SmoothPorts,
+}
+
+/// Both bodies with the ports of ordinary patches, with those of the wings as well, and less half-planes.
+struct Kinds {
+    narrow: TwoBodies,
+    wide: TwoBodies,
+    smooth: TwoBodies,
+}
+
+impl Layout<'_> {
+    /// Both bodies as modes.
+    fn reduced(&self, basis: Basis) -> Kinds {
+        let bodies = |[wheel, rail]: [ReducedBasis; 2]| -> TwoBodies {
+            [
+                Box::new(ReducedBody::new(wheel, self.config.physics.centrifugal, &self.damping[0])),
+                Box::new(ReducedBody::new(rail, false, &self.damping[1])),
+            ]
+        };
+        let basis = [basis.wheel, basis.rail];
+        let smooth = [0, 1].map(|i| basis[i].smooth(&self.points, self.half_plane, SIDES[i]));
+        let finer = [0, 1].map(|i| basis[i].refined(&self.elements, &self.surface_x, self.half_plane, SIDES[i]));
+        let narrow = finer.each_ref().map(|body| body.cut(self.ports.clone()));
+        Kinds { narrow: bodies(narrow), wide: bodies(finer), smooth: bodies(smooth) }
+    }
+
+    /// Both bodies with all their finite elements.
+    fn full(&self, progress: &mut dyn FnMut(&str, f64)) -> Result<Kinds, MechanicsError> {
+        let (config, x) = (self.config, &self.surface_x);
+        progress("assembling the wheel", 0.0);
+        let counts = [config.solver.modes_wheel, config.solver.modes_rail];
+        let centrifugal = config.physics.centrifugal;
+        let wheel = FullBody::damped(wheel_system(config)?, centrifugal, &self.damping[0], counts[0])?;
+        progress("assembling the rail", 0.5);
+        let rail = FullBody::damped(rail_system(config)?, false, &self.damping[1], counts[1])?;
+        progress("assembling the rail", 1.0);
+        let smooth = |body: &FullBody, side| body.smooth(&self.points, self.half_plane, side);
+        let smooth: TwoBodies = [Box::new(smooth(&wheel, SIDES[0])?), Box::new(smooth(&rail, SIDES[1])?)];
+        let corrected = |body: FullBody, side| body.corrected(x, self.half_plane, side);
+        let (wheel, rail) = (corrected(wheel, SIDES[0])?, corrected(rail, SIDES[1])?);
+        let narrow = |body: &FullBody| Box::new(body.cut(self.ports.clone()));
+        Ok(Kinds { narrow: [narrow(&wheel), narrow(&rail)], wide: [Box::new(wheel), Box::new(rail)], smooth })
     }
 }
 
@@ -62,50 +127,27 @@ pub fn bodies(
     progress: &mut dyn FnMut(&str, f64),
 ) -> Result<Pair, MechanicsError> {
     let zone = contact_zone(config);
-    let half_plane = Isotropic::from(&config.material).half_plane();
-    let centrifugal = config.physics.centrifugal;
-    let damping = [BodyDamping::wheel(config), BodyDamping::rail(config)];
-    let (surface_x, wing) = (zone.surface_x(), zone.wing_nodes());
-    let core = wing..surface_x.len() - wing;
-    let ports = 2 * core.start..2 * core.end;
-    type TwoBodies = [Box<dyn BodyResponse>; 2];
-    let retarded = damping.iter().any(|damping| damping.stiffness > 0.0);
-    let smooth = basis.as_ref().filter(|_| !retarded).and_then(|basis| {
-        let x = &surface_x[core.clone()];
-        let reach = x[x.len() - 1 - GUARDS];
-        let points = Lagrange::new(reach);
-        let part = |body: &ReducedBasis, side| body.cut(ports.clone()).smooth(x, &points, half_plane, side);
-        let wheel = ReducedBody::new(part(&basis.wheel, 1.0)?, centrifugal, &damping[0]);
-        let rail = ReducedBody::new(part(&basis.rail, -1.0)?, false, &damping[1]);
-        Some(SmoothBodies { wheel: Box::new(wheel), rail: Box::new(rail), reach })
-    });
-    let parts = grid_cells_per_element(config);
-    let (elements, surface_x) = (surface_x.clone(), divided(&surface_x, parts));
-    let ports = 2 * parts * core.start..2 * (parts * (core.end - 1) + 1);
-    let [narrow, wide]: [TwoBodies; 2] = match basis {
-        Some(Basis { wheel, rail, .. }) => {
-            let finer = |body: ReducedBasis, side| body.refined(&elements, &surface_x, half_plane, side);
-            let (wheel, rail) = (finer(wheel, 1.0), finer(rail, -1.0));
-            [(wheel.cut(ports.clone()), rail.cut(ports.clone())), (wheel, rail)].map(|(w, r)| -> TwoBodies {
-                [
-                    Box::new(ReducedBody::new(w, centrifugal, &damping[0])),
-                    Box::new(ReducedBody::new(r, false, &damping[1])),
-                ]
-            })
-        }
-        None => {
-            progress("assembling the wheel", 0.0);
-            let counts = [config.solver.modes_wheel, config.solver.modes_rail];
-            let wheel = FullBody::damped(wheel_system(config)?, centrifugal, &damping[0], counts[0])?;
-            progress("assembling the rail", 0.5);
-            let rail = FullBody::damped(rail_system(config)?, false, &damping[1], counts[1])?;
-            progress("assembling the rail", 1.0);
-            let (wheel, rail) =
-                (wheel.corrected(&surface_x, half_plane, 1.0)?, rail.corrected(&surface_x, half_plane, -1.0)?);
-            [[Box::new(wheel.cut(ports.clone())), Box::new(rail.cut(ports.clone()))], [Box::new(wheel), Box::new(rail)]]
-        }
+    let (elements, wing, parts) = (zone.surface_x(), zone.wing_nodes(), grid_cells_per_element(config));
+    let core = wing..elements.len() - wing;
+    let layout = Layout {
+        config,
+        half_plane: Isotropic::from(&config.material).half_plane(),
+        damping: [BodyDamping::wheel(config), BodyDamping::rail(config)],
+        surface_x: divided(&elements, parts),
+        ports: 2 * parts * core.start..2 * (parts * (core.end - 1) + 1),
+        points: SmoothPorts::new(&elements)?,
+        elements,
     };
-    let pair = |[wheel, rail]: TwoBodies, x: Vec<f64>| Pair::new(wheel, rail, x, grid_spacing(config));
-    let middle = pair(narrow, surface_x[ports.start / 2..ports.end / 2].to_vec());
-    Ok(Pair { wide: (wing > 0).then(|| Box::new(pair(wide, surface_x))), smooth, ..middle })
+    let Kinds { narrow: [wheel, rail], wide, smooth } = match basis {
+        Some(basis) => layout.reduced(basis),
+        None => layout.full(progress)?,
+    };
+    let Layout { surface_x: x, ports, points, .. } = layout;
+    let surface_x = x[ports.start / 2..ports.end / 2].to_vec();
+    let candidates = GUARDS..surface_x.len() - GUARDS;
+    let [wide_wheel, wide_rail] = wide;
+    let wide = (wing > 0).then_some(WideBodies { wheel: wide_wheel, rail: wide_rail, surface_x: x });
+    let [smooth_wheel, smooth_rail] = smooth;
+    let smooth = SmoothBodies { wheel: smooth_wheel, rail: smooth_rail, reach: points.basis.reach };
+    Ok(Pair { wheel, rail, surface_x, spacing: grid_spacing(config), candidates, wide, smooth })
 }

@@ -23,7 +23,7 @@ pub struct Bodies {
     /// Both with the ports of wide ones.
     wide: Option<[Box<dyn BodyResponse>; 2]>,
     /// Both less half-planes, for a solver that knows those.
-    smooth: Option<[Box<dyn BodyResponse>; 2]>,
+    smooth: [Box<dyn BodyResponse>; 2],
     /// Track below its base; `None`: the base is fixed.
     pub support: Option<TrackSupport>,
     /// Positions of the nodes of the narrow and of the wide ports \[m], and their distance in the middle \[m].
@@ -88,7 +88,7 @@ impl Bodies {
         let wings = pair.wide.as_ref().map_or(Vec::new(), |wide| wide.surface_x.clone());
         let nodes = ([pair.surface_x, wings], pair.spacing);
         let wide = pair.wide.map(|pair| [pair.wheel, pair.rail]);
-        let smooth = pair.smooth.map(|pair| [pair.wheel, pair.rail]);
+        let smooth = [pair.smooth.wheel, pair.smooth.rail];
         Self { narrow: [pair.wheel, pair.rail], wide, smooth, support, nodes, apart: None }
     }
 
@@ -97,7 +97,7 @@ impl Bodies {
         let other = match lines::ports(&state.lines) {
             Ports::Narrow => None,
             Ports::Wide => self.wide.as_ref(),
-            Ports::Smooth => self.smooth.as_ref(),
+            Ports::Smooth => Some(&self.smooth),
         };
         let [wheel, rail] = other.unwrap_or(&self.narrow);
         [&**wheel, &**rail]

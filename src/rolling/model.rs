@@ -77,11 +77,14 @@ impl RollingModel {
 
     /// Builds the model on given bodies with given surfaces, with contact on the nodes that the configuration asks for.
     pub fn new(config: Config, bodies: Pair, surfaces: Surfaces) -> Result<Self, ModelError> {
-        let grid = |pair: &Pair| ContactGrid::new(pair.surface_x.clone(), pair.spacing, pair.candidates.start);
+        let grid = |x: &Vec<f64>| ContactGrid::new(x.clone(), bodies.spacing, bodies.candidates.start);
         let points = Self::patch_reach(&config, &bodies, &surfaces).map(SeriesSolver::new);
         let solver: Box<dyn ContactSolver> = match points {
             Some(points) if config.solver.contact.requires_patch() => Box::new(points),
-            points => Box::new(NodeChoice::new(grid(&bodies), bodies.wide.as_deref().map(grid), points)),
+            points => {
+                let wide = bodies.wide.as_ref().map(|wide| grid(&wide.surface_x));
+                Box::new(NodeChoice::new(grid(&bodies.surface_x), wide, points))
+            }
         };
         Self::with_solver(config, bodies, surfaces, solver)
     }
@@ -96,8 +99,9 @@ impl RollingModel {
             ContactMethod::Auto => surfaces.is_smooth(),
             ContactMethod::Patch => true,
         };
-        let smooth = bodies.smooth.as_ref().filter(|_| sought)?;
-        (!reversible).then_some(smooth.reach)
+        // They neither retard the flexibility of half-planes nor know bodies with all their finite elements.
+        let modal = config.damping.rayleigh_stiffness == 0.0 && config.solver.response.is_reduced();
+        (sought && modal && !reversible).then_some(bodies.smooth.reach)
     }
 
     /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports.
@@ -107,9 +111,9 @@ impl RollingModel {
         surfaces: Surfaces,
         solver: Box<dyn ContactSolver>,
     ) -> Result<Self, ModelError> {
-        let end = |pair: &Pair| pair.surface_x[pair.candidates.clone()].last().copied().unwrap_or(0.0);
+        let end = |x: &Vec<f64>| x.iter().rev().nth(bodies.candidates.start).copied().unwrap_or(0.0);
         let spacing = bodies.spacing;
-        let (zone, reach) = (end(&bodies), bodies.wide.as_deref().map_or(0.0, end));
+        let (zone, reach) = (end(&bodies.surface_x), bodies.wide.as_ref().map_or(0.0, |wide| end(&wide.surface_x)));
         let steel = Isotropic::from(&config.material);
         let shear = steel.shear_wave_speed();
         let thermal = match config.thermal.enabled {
