@@ -1,5 +1,6 @@
 //! Polynomials through a few points of an interval: smooth functions as their values there.
 
+use super::LinalgError;
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
 
@@ -72,9 +73,13 @@ impl Lagrange {
     }
 
     /// Matrix that turns values at the positions `x` into those at the points: least squares.
-    pub fn projection(&self, x: &[f64]) -> Option<DMatrix<f64>> {
+    pub fn projection(&self, x: &[f64]) -> Result<DMatrix<f64>, LinalgError> {
         let design = DMatrix::from_fn(x.len(), POINTS, |i, k| self.values(x[i])[k]);
-        (design.transpose() * &design).cholesky().map(|factor| factor.solve(&design.transpose()))
+        let factor = (design.transpose() * &design).cholesky().ok_or_else(|| {
+            let reason = format!("{} places for polynomials through {POINTS} points", x.len());
+            LinalgError::NotPositiveDefinite { size: POINTS, reason }
+        })?;
+        Ok(factor.solve(&design.transpose()))
     }
 }
 

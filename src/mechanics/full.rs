@@ -7,6 +7,7 @@ use super::reduction::scale_columns;
 use super::remainder::missing;
 use super::response::{BodyState, StepOperator, fit};
 use super::retarded::{RetardedLayer, quadratic_form};
+use super::smooth::SmoothPorts;
 use super::solver::{Dense, StepSolver};
 use super::system::BodySystem;
 use crate::analytic::HalfPlane;
@@ -23,8 +24,11 @@ pub struct FullBody {
     pattern: CholeskyPattern,
     centrifugal: bool,
     damping: Option<FullDamping>,
-    /// Flexibility that the finite elements lack between near surface nodes, see [`missing`] [m/(N/m)].
-    near: DMatrix<f64>,
+    /// Components of the ports by those of the surface nodes; `None`: these are the ports.
+    on_points: Option<DMatrix<f64>>,
+    /// Flexibility that the finite elements lack between the ports: between near surface nodes ([`missing`]), or, at the
+    /// points of [`SmoothPorts`], besides less that of a half-plane [m/(N/m)].
+    lacking: DMatrix<f64>,
 }
 
 /// Damping of all finite elements.
@@ -52,7 +56,7 @@ impl FullBody {
     pub fn new(system: BodySystem, centrifugal: bool) -> Result<Self, MechanicsError> {
         let pattern = CholeskyPattern::new(&step_matrix(&system, [0.0; 2], 0.0)?)?;
         let ports = system.surface.len();
-        Ok(Self { system, pattern, centrifugal, damping: None, near: DMatrix::zeros(ports, ports) })
+        Ok(Self { system, pattern, centrifugal, damping: None, on_points: None, lacking: DMatrix::zeros(ports, ports) })
     }
 
     /// Body with damping, for which the lowest `modes` vibration modes are computed.
@@ -68,7 +72,7 @@ impl FullBody {
         }
         let modes = Arc::new(DampedModes::compute(&body.system, modes, damping)?);
         let layer = (damping.stiffness > 0.0)
-            .then(|| Arc::new(RetardedLayer { flexibility: body.near.clone(), time: damping.stiffness }));
+            .then(|| Arc::new(RetardedLayer { flexibility: body.lacking.clone(), time: damping.stiffness }));
         body.damping = Some(FullDamping { rayleigh: [damping.mass, damping.stiffness], modes, layer });
         Ok(body)
     }
@@ -76,24 +80,66 @@ impl FullBody {
     /// This body with the flexibility that it lacks between its surface nodes `x` \[m] beside one with the elasticity of
     /// `half_plane`; the body lies above its surface (`side` 1) or below it (−1).
     pub(super) fn corrected(mut self, x: &[f64], half_plane: HalfPlane, side: f64) -> Result<Self, MechanicsError> {
-        self.near = missing(&self.operator(0.0)?.surface, x, half_plane, side);
+        self.lacking = missing(&self.operator(0.0)?.surface, x, half_plane, side);
         if let Some(layer) = self.damping.as_mut().and_then(|damping| damping.layer.as_mut()) {
-            Arc::make_mut(layer).flexibility.clone_from(&self.near);
+            Arc::make_mut(layer).flexibility.clone_from(&self.lacking);
         }
         Ok(self)
     }
 
+    /// This body, whose ports are its surface nodes, less a half-plane on points of their zone.
+    pub(super) fn smooth(&self, ports: &SmoothPorts, half_plane: HalfPlane, side: f64) -> Result<Self, MechanicsError> {
+        let (compliance, on_points) = (self.operator(0.0)?.surface - &self.lacking, ports.components());
+        let mut lacking = ports.remainder(&compliance, half_plane, side);
+        lacking -= &on_points * compliance * on_points.transpose();
+        symmetrise(&mut lacking);
+        Ok(self.with_ports(self.system.clone(), Some(on_points), lacking))
+    }
+
     /// This body with only the surface components `ports`.
     pub fn cut(&self, ports: Range<usize>) -> Self {
-        let mut system = self.system.clone();
-        system.surface = system.surface[ports.clone()].to_vec();
+        let (mut system, mut on_points) = (self.system.clone(), None);
+        match &self.on_points {
+            Some(whole) => on_points = Some(whole.rows(ports.start, ports.len()).into_owned()),
+            None => system.surface = system.surface[ports.clone()].to_vec(),
+        }
+        let lacking = self.lacking.view((ports.start, ports.start), (ports.len(), ports.len())).into_owned();
+        self.with_ports(system, on_points, lacking)
+    }
+
+    /// This body with other ports, between which its elements lack the flexibility `lacking`.
+    fn with_ports(&self, system: BodySystem, on_points: Option<DMatrix<f64>>, lacking: DMatrix<f64>) -> Self {
+        let retarded =
+            |layer: &Arc<RetardedLayer>| Arc::new(RetardedLayer { flexibility: lacking.clone(), time: layer.time });
         let damping = self.damping.as_ref().map(|FullDamping { rayleigh, modes, layer }| FullDamping {
             rayleigh: *rayleigh,
             modes: modes.clone(),
-            layer: layer.as_ref().map(|layer| Arc::new(layer.cut(ports.clone()))),
+            layer: layer.as_ref().map(retarded),
         });
-        let near = self.near.view((ports.start, ports.start), (ports.len(), ports.len())).into_owned();
-        Self { system, pattern: self.pattern.clone(), centrifugal: self.centrifugal, damping, near }
+        Self { system, pattern: self.pattern.clone(), centrifugal: self.centrifugal, damping, on_points, lacking }
+    }
+
+    /// Several fields at the ports.
+    fn rows_on_ports(&self, fields: &DMatrix<f64>) -> DMatrix<f64> {
+        let on_surface = self.system.rows_on_surface(fields);
+        match &self.on_points {
+            Some(on_points) => on_points * on_surface,
+            None => on_surface,
+        }
+    }
+
+    /// Answer of the ports to unit forces on them through the elements alone [m/(N/m)]; `factor` is that of the matrix of
+    /// the step.
+    fn compliance(&self, factor: &Cholesky) -> DMatrix<f64> {
+        let Some(on_points) = &self.on_points else { return self.system.surface_compliance(factor) };
+        let mut columns = DMatrix::zeros(self.system.unknowns(), on_points.nrows());
+        for (&unknown, weights) in self.system.surface.iter().zip(on_points.column_iter()) {
+            columns.row_mut(unknown).copy_from(&weights.transpose());
+        }
+        factor.solve_columns(&mut columns);
+        let mut compliance = self.rows_on_ports(&columns);
+        symmetrise(&mut compliance);
+        compliance
     }
 
     fn rayleigh(&self) -> [f64; 2] {
@@ -223,12 +269,23 @@ impl Equations for FullBody {
     }
 
     fn set_surface(&self, y: &DVector<f64>, _square: f64, surface: &mut DVector<f64>) {
-        fit(surface, self.system.surface.len());
-        surface.iter_mut().zip(&self.system.surface).for_each(|(value, &i)| *value = y[i]);
+        fit(surface, self.lacking.nrows());
+        let Some(on_points) = &self.on_points else {
+            surface.iter_mut().zip(&self.system.surface).for_each(|(value, &i)| *value = y[i]);
+            return;
+        };
+        surface.fill(0.0);
+        let weights = self.system.surface.iter().zip(on_points.column_iter());
+        weights.for_each(|(&i, weights)| surface.axpy(y[i], &weights, 1.0));
     }
 
     fn add_surface_forces(&self, forces: &DVector<f64>, load: &mut DVector<f64>) {
-        self.system.surface.iter().zip(forces).for_each(|(&i, force)| load[i] += force);
+        let Some(on_points) = &self.on_points else {
+            self.system.surface.iter().zip(forces).for_each(|(&i, force)| load[i] += force);
+            return;
+        };
+        let weights = self.system.surface.iter().zip(on_points.column_iter());
+        weights.for_each(|(&i, weights)| load[i] += weights.dot(forces));
     }
 }
 
@@ -240,7 +297,7 @@ impl BodyResponse for FullBody {
     fn operator(&self, a0: f64) -> Result<StepOperator, MechanicsError> {
         let system = &self.system;
         let factor = self.pattern.factorise(&step_matrix(system, self.rayleigh(), a0)?)?;
-        let mut surface = system.surface_compliance(&factor);
+        let mut surface = self.compliance(&factor);
         let mut rigid = system.rigid.clone();
         factor.solve_columns(&mut rigid);
         let solver: Box<dyn StepSolver> = match &self.damping {
@@ -249,17 +306,17 @@ impl BodyResponse for FullBody {
                 let correction = damping.correction(system, &factor, a0)?;
                 let Correction { shapes, weights } = &correction;
                 rigid += &**shapes * (weights * shapes.tr_mul(&system.rigid));
-                let on_surface = system.rows_on_surface(shapes);
-                surface.gemm(1.0, &(&on_surface * weights), &on_surface.transpose(), 1.0);
+                let on_ports = self.rows_on_ports(shapes);
+                surface.gemm(1.0, &(&on_ports * weights), &on_ports.transpose(), 1.0);
                 symmetrise(&mut surface);
                 Box::new(Corrected { factor, correction })
             }
         };
-        let inertial_response = -system.rows_on_surface(&rigid);
+        let inertial_response = -self.rows_on_ports(&rigid);
         let momentum = inertial_response.transpose() * -(a0 * a0);
         let deformation_inertia = system.rigid.tr_mul(&rigid) * -(a0 * a0);
         let layer = self.damping.as_ref().and_then(|damping| damping.layer.clone());
-        surface += &self.near * layer.as_ref().map_or(1.0, |layer| layer.share(a0));
+        surface += &self.lacking * layer.as_ref().map_or(1.0, |layer| layer.share(a0));
         Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, layer, solver })
     }
 
@@ -272,7 +329,7 @@ impl BodyResponse for FullBody {
         let coupling: f64 = momentum.zip(rigid_velocity.values()).map(|(p, w)| p * w).sum();
         let layer = match self.layer() {
             Some(layer) => layer.energy(&state.retarded),
-            None => 0.5 * quadratic_form(&self.near, forces),
+            None => 0.5 * quadratic_form(&self.lacking, forces),
         };
         elastic + kinetic + coupling + layer - centrifugal_work(self, state, rigid_velocity.rotation)
     }

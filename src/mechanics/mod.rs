@@ -17,7 +17,6 @@ mod pair;
 mod rectangle;
 pub mod reduced;
 pub mod reduction;
-mod refined;
 mod remainder;
 pub mod response;
 pub mod retarded;

@@ -8,12 +8,10 @@ use super::layout::{grid_cells_per_element, grid_spacing};
 use super::meshes::{rail_system, wheel_system};
 use super::motion::BodyResponse;
 use super::reduced::ReducedBody;
-use super::reduction::ReducedBasis;
-use super::refined::divided;
 use super::size::contact_zone;
+use super::smooth::SmoothPorts;
 use crate::config::Config;
 use crate::fem::graded::GUARDS;
-use crate::linalg::Lagrange;
 use crate::material::Isotropic;
 use std::ops::Range;
 
@@ -32,7 +30,7 @@ pub struct Pair {
     pub spacing: f64,
     /// Nodes that can carry contact; the others are guards.
     pub candidates: Range<usize>,
-    /// Half of the length of the middle, in which nodes have one distance \[m].
+    /// Half of the length of the middle in which ordinary patches lie \[m]: nodes have one distance there.
     pub zone: f64,
 }
 
@@ -45,25 +43,54 @@ pub fn bodies(
     progress: &mut dyn FnMut(&str, f64),
 ) -> Result<Pair, MechanicsError> {
     let zone = contact_zone(config);
+    let (elements, wing, parts) = (zone.surface_x(), zone.wing_nodes(), grid_cells_per_element(config));
+    let points = SmoothPorts::new(&elements)?;
     let half_plane = Isotropic::from(&config.material).half_plane();
-    let centrifugal = config.physics.centrifugal;
     let damping = [BodyDamping::wheel(config), BodyDamping::rail(config)];
-    let (surface_x, wing) = (zone.surface_x(), zone.wing_nodes());
-    let core = wing..surface_x.len() - wing;
-    let ports = 2 * core.start..2 * core.end;
-    type TwoBodies = [Box<dyn BodyResponse>; 2];
-    let retarded = damping.iter().any(|damping| damping.stiffness > 0.0);
-    let x = &surface_x[core.clone()];
-    let reach = x[x.len() - 1 - GUARDS];
-    let points = Lagrange::new(reach);
-    let basis = basis.unwrap();
-    let part = |body: &ReducedBasis, side| body.cut(ports.clone()).smooth(x, &points, half_plane, side).unwrap();
-    let wheel = ReducedBody::new(part(&basis.wheel, 1.0), centrifugal, &damping[0]);
-    let rail = ReducedBody::new(part(&basis.rail, -1.0), false, &damping[1]);
-    let parts = grid_cells_per_element(config);
-    let zone = divided(x, parts);
-    let zone = zone[zone.len() - 1 - GUARDS];
-    let surface_x = divided(&surface_x, parts);
+    let centrifugal = config.physics.centrifugal;
+    // The wheel lies above its surface, the rail below.
+    let [above, below] = [1.0, -1.0];
+    let [wheel, rail]: [Box<dyn BodyResponse>; 2] = match basis {
+        Some(Basis { wheel, rail, .. }) => [
+            Box::new(ReducedBody::new(wheel.smooth(&points, half_plane, above), centrifugal, &damping[0])),
+            Box::new(ReducedBody::new(rail.smooth(&points, half_plane, below), false, &damping[1])),
+        ],
+        None => {
+            progress("assembling the wheel", 0.0);
+            let counts = [config.solver.modes_wheel, config.solver.modes_rail];
+            let wheel = FullBody::damped(wheel_system(config)?, centrifugal, &damping[0], counts[0])?;
+            progress("assembling the rail", 0.5);
+            let rail = FullBody::damped(rail_system(config)?, false, &damping[1], counts[1])?;
+            progress("assembling the rail", 1.0);
+            [
+                Box::new(wheel.smooth(&points, half_plane, above)?),
+                Box::new(rail.smooth(&points, half_plane, below)?),
+            ]
+        }
+    };
+    let surface_x = divided(&elements, parts);
+    let zone = surface_x[surface_x.len() - 1 - parts * wing - GUARDS];
     let candidates = GUARDS..surface_x.len() - GUARDS;
-    Ok(Pair { wheel: Box::new(wheel), rail: Box::new(rail), reach, surface_x, spacing: grid_spacing(config), candidates, zone })
+    Ok(Pair { wheel, rail, reach: points.basis.reach, surface_x, spacing: grid_spacing(config), candidates, zone })
+}
+
+/// The nodes `x` \[m], ascending, and those that divide every cell between them into `parts` equal ones: contact needs nodes
+/// closer than the bodies do.
+fn divided(x: &[f64], parts: usize) -> Vec<f64> {
+    let between = |pair: &[f64]| -> Vec<f64> {
+        (0..parts).map(|k| pair[0] + (pair[1] - pair[0]) * k as f64 / parts as f64).collect()
+    };
+    x.windows(2).flat_map(between).chain(x.last().copied()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_division_of_cells_keeps_all_nodes() {
+        let x = [-3.0, -1.5, -0.5, 0.0, 0.5, 1.5, 3.0];
+        let finer = divided(&x, 3);
+        assert_eq!((finer.len(), finer[3], finer[18], finer[1]), (19, -1.5, 3.0, -2.5));
+    }
 }

@@ -7,7 +7,7 @@ use crate::linalg::dense::symmetrise;
 use nalgebra::DMatrix;
 
 /// Nodes within which the compliance of finite elements is not yet that of the elastic body.
-const NEAR: usize = 8;
+pub(super) const NEAR: usize = 8;
 
 impl ReducedBasis {
     /// Static displacements of the surface nodes by forces on them, x and y of every node [m/(N/m)].

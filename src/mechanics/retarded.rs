@@ -7,7 +7,6 @@ use crate::linalg::vectorised::{self, add_columns};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
-use std::ops::Range;
 
 /// A flexible layer with damping.
 #[derive(Clone, Debug)]
@@ -50,12 +49,6 @@ impl RetardedForces {
 }
 
 impl RetardedLayer {
-    /// This layer with only the surface components `ports`.
-    pub fn cut(&self, ports: Range<usize>) -> Self {
-        let flexibility = self.flexibility.view((ports.start, ports.start), (ports.len(), ports.len())).into_owned();
-        Self { flexibility, time: self.time }
-    }
-
     /// Share with which a new force counts at once \[1].
     pub fn share(&self, a0: f64) -> f64 {
         1.0 / (1.0 + self.time * a0)

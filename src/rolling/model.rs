@@ -10,7 +10,7 @@ use super::state::State;
 use super::support::TrackSupport;
 use super::thermal::{self, ThermalModel};
 use crate::analytic;
-use crate::config::{Config, ContactMethod, Response};
+use crate::config::{Config, ContactMethod};
 use crate::contact::choice::NodeChoice;
 use crate::contact::line::ContactGrid;
 use crate::contact::series::SeriesSolver;
@@ -96,8 +96,9 @@ impl RollingModel {
             ContactMethod::Auto => surfaces.is_smooth(),
             ContactMethod::Patch => true,
         };
-        let prompt = config.damping.rayleigh_stiffness == 0.0 && config.solver.response == Response::Reduced;
-        (sought && prompt && !reversible).then_some(bodies.reach)
+        // They neither retard the flexibility of half-planes nor know bodies with all their finite elements.
+        let modal = config.damping.rayleigh_stiffness == 0.0 && config.solver.response.is_reduced();
+        (sought && modal && !reversible).then_some(bodies.reach)
     }
 
     /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports.
