@@ -63,7 +63,7 @@ type TwoBodies = [Box<dyn BodyResponse>; 2];
 const SIDES: [f64; 2] = [1.0, -1.0];
 
 /// Surface nodes of both bodies, and how they are damped.
-struct Layout<'a> {
+struct PairPlan<'a> {
     config: &'a Config,
     half_plane: HalfPlane,
     damping: [BodyDamping; 2],
@@ -77,15 +77,15 @@ struct Layout<'a> {
 }
 
 /// Both bodies with the ports of ordinary patches, with those of the wings as well, and less half-planes.
-struct Kinds {
+struct BothAtPorts {
     narrow: TwoBodies,
     wide: TwoBodies,
     smooth: TwoBodies,
 }
 
-impl Layout<'_> {
+impl PairPlan<'_> {
     /// Both bodies as modes.
-    fn reduced(&self, basis: Basis) -> Kinds {
+    fn reduced(&self, basis: Basis) -> BothAtPorts {
         let bodies = |[wheel, rail]: [ReducedBasis; 2]| -> TwoBodies {
             [
                 Box::new(ReducedBody::new(wheel, self.config.physics.centrifugal, &self.damping[0])),
@@ -96,11 +96,11 @@ impl Layout<'_> {
         let smooth = [0, 1].map(|i| basis[i].smooth(&self.points, self.half_plane, SIDES[i]));
         let finer = [0, 1].map(|i| basis[i].refined(&self.elements, &self.surface_x, self.half_plane, SIDES[i]));
         let narrow = finer.each_ref().map(|body| body.cut(self.ports.clone()));
-        Kinds { narrow: bodies(narrow), wide: bodies(finer), smooth: bodies(smooth) }
+        BothAtPorts { narrow: bodies(narrow), wide: bodies(finer), smooth: bodies(smooth) }
     }
 
     /// Both bodies with all their finite elements.
-    fn full(&self, progress: &mut dyn FnMut(&str, f64)) -> Result<Kinds, MechanicsError> {
+    fn full(&self, progress: &mut dyn FnMut(&str, f64)) -> Result<BothAtPorts, MechanicsError> {
         let (config, x) = (self.config, &self.surface_x);
         progress("assembling the wheel", 0.0);
         let counts = [config.solver.modes_wheel, config.solver.modes_rail];
@@ -114,7 +114,7 @@ impl Layout<'_> {
         let corrected = |body: FullBody, side| body.corrected(x, self.half_plane, side);
         let (wheel, rail) = (corrected(wheel, SIDES[0])?, corrected(rail, SIDES[1])?);
         let narrow = |body: &FullBody| Box::new(body.cut(self.ports.clone()));
-        Ok(Kinds { narrow: [narrow(&wheel), narrow(&rail)], wide: [Box::new(wheel), Box::new(rail)], smooth })
+        Ok(BothAtPorts { narrow: [narrow(&wheel), narrow(&rail)], wide: [Box::new(wheel), Box::new(rail)], smooth })
     }
 }
 
@@ -129,7 +129,7 @@ pub fn bodies(
     let zone = contact_zone(config);
     let (elements, wing, parts) = (zone.surface_x(), zone.wing_nodes(), grid_cells_per_element(config));
     let core = wing..elements.len() - wing;
-    let layout = Layout {
+    let plan = PairPlan {
         config,
         half_plane: Isotropic::from(&config.material).half_plane(),
         damping: [BodyDamping::wheel(config), BodyDamping::rail(config)],
@@ -138,11 +138,11 @@ pub fn bodies(
         points: SmoothPorts::new(&elements)?,
         elements,
     };
-    let Kinds { narrow: [wheel, rail], wide, smooth } = match basis {
-        Some(basis) => layout.reduced(basis),
-        None => layout.full(progress)?,
+    let BothAtPorts { narrow: [wheel, rail], wide, smooth } = match basis {
+        Some(basis) => plan.reduced(basis),
+        None => plan.full(progress)?,
     };
-    let Layout { surface_x: x, ports, points, .. } = layout;
+    let PairPlan { surface_x: x, ports, points, .. } = plan;
     let surface_x = x[ports.start / 2..ports.end / 2].to_vec();
     let candidates = GUARDS..surface_x.len() - GUARDS;
     let [wide_wheel, wide_rail] = wide;
