@@ -424,7 +424,8 @@ fn a_step_returns_early_where_the_wheel_locks_and_is_released_and_the_run_has_th
     assert!(early.len() >= 2 && early.len() <= 6, "{early:?}");
     for (a, b) in end.iter().zip(expected) {
         println!("{a:.9} and {b:.9} at the end");
-        assert!((a - b).abs() < 1e-4 * b.abs().max(1.0));
+        // What the step control leaves of a stick that ends.
+        assert!((a - b).abs() < 1e-3 * b.abs().max(1.0));
     }
 }
 

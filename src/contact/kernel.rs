@@ -46,11 +46,22 @@ impl LineKernel {
         Self { tangential: along, normal: along, lateral: Logarithm::default(), coupling: half_plane.coupling }
     }
 
-    /// That of which a `share` answers at once.
+    /// That of a half-plane whose displacement ends at 1 m, as bodies lack it: the rest of a reach is a constant.
+    pub fn without_reach(self) -> Self {
+        let short = |along: Logarithm| Logarithm { reach: 0.0, ..along };
+        Self { tangential: short(self.tangential), normal: short(self.normal), ..self }
+    }
+
+    /// That of which a `share` answers at once, and the constant.
     pub fn at_once(self, share: f64) -> Self {
-        let scaled = |along: Logarithm| Logarithm { factor: share * along.factor, ..along };
+        let scaled = |Logarithm { factor, reach }| Logarithm { factor: share * factor, reach: reach / share };
         let Self { tangential, normal, lateral, coupling } = self;
         Self { tangential: scaled(tangential), normal: scaled(normal), lateral, coupling: share * coupling }
+    }
+
+    /// Elastic energy of the constants of one body under the sums of tangential and normal forces [J/m].
+    pub fn energy_of_reach(&self, sums: [f64; 2]) -> f64 {
+        [self.tangential, self.normal].iter().zip(sums).map(|(along, sum)| 0.5 * along.displacement(0.0) * sum * sum).sum()
     }
 
     /// True if all numbers are finite.

@@ -84,13 +84,13 @@ impl LinearSolver {
             }
         }
         let small = Small::new(lines, axes, &unknowns.axes);
-        self.write(&small, unknowns);
+        self.write(&small);
         let solution = self.solution().ok_or_else(singular)?;
         let felt: Vec<Felt> = (0..small.places.lines).map(|k| small.felt(k, &solution)).collect();
         let changes = &solution[small.places.motion(0)..];
-        for ((own, line), (unknowns, felt)) in self.lines.iter().zip(&mut *lines).zip(unknowns.lines.iter().zip(&felt)) {
+        for ((own, line), felt) in self.lines.iter().zip(&mut *lines).zip(&felt) {
             line.state.forces.fill(0.0);
-            for (&i, forces) in unknowns.closed.iter().zip(&own.forces) {
+            for (&i, forces) in own.nodes.iter().zip(&own.forces) {
                 let at = line.grid.component(i);
                 let [tangential, normal] = forces.map(|force| force.iter().zip(felt).map(|(f, by)| f * by).sum::<f64>());
                 (line.state.forces[at], line.state.forces[at + 1]) = (tangential, normal);
@@ -101,7 +101,7 @@ impl LinearSolver {
     }
 
     /// Writes the small system.
-    fn write(&mut self, small: &Small, unknowns: &Unknowns) {
+    fn write(&mut self, small: &Small) {
         let (size, lines) = (small.places.len(), small.lines);
         self.rows.clear();
         self.rows.resize(size * size, 0.0);
@@ -111,9 +111,9 @@ impl LinearSolver {
             self.rows[k * size + k] = 1.0;
         }
         for (k, (own, line)) in self.lines.iter().zip(lines).enumerate() {
-            let (closed, grid) = (&unknowns.lines[k].closed, line.grid);
+            let (nodes, grid) = (&own.nodes, line.grid);
             for (port, factor) in (0..ON_PORTS).map(|port| (port, -line.problem.share)) {
-                let value = |place: usize| grid.values[closed[place] + grid.guard][port / 2];
+                let value = |place: usize| grid.values[nodes[place] + grid.guard][port / 2];
                 let sum = match port % 2 {
                     0 => own.sum(|place| [value(place), 0.0]),
                     _ => own.sum(|place| [0.0, value(place)]),
@@ -121,7 +121,7 @@ impl LinearSolver {
                 small.add(k, &sum, factor, row(&mut self.rows, &mut self.constants, port));
             }
             for n in 0..small.places.moments {
-                let power = |place: usize| line.problem.patch.map_or(0.0, |patch| patch.powers(grid.x[closed[place]])[n]);
+                let power = |place: usize| line.problem.patch.map_or(0.0, |patch| patch.powers(grid.x[nodes[place]])[n]);
                 let at = small.places.moment(k, n);
                 self.rows[at * size + at] = 1.0;
                 let sum = own.sum(|place| [power(place), 0.0]);
@@ -129,7 +129,7 @@ impl LinearSolver {
             }
             let rim = &line.iterate.rim;
             let own_angle = own.sum(|place| {
-                let node = closed[place] + grid.guard;
+                let node = nodes[place] + grid.guard;
                 [rim.tangential[node], rim.normal[node]]
             });
             let at = small.places.angle(k);
@@ -138,7 +138,7 @@ impl LinearSolver {
         }
         for (number, &axis) in small.sought.iter().enumerate() {
             let at = small.places.motion(number);
-            small.add_balance(axis, (&self.lines, unknowns), row(&mut self.rows, &mut self.constants, at));
+            small.add_balance(axis, &self.lines, row(&mut self.rows, &mut self.constants, at));
         }
     }
 
@@ -219,15 +219,15 @@ impl<'a, 'b> Small<'a, 'b> {
         row[self.places.angle(k)] += 1.0;
         *constant += line.frame.rim_angle - rim.constant;
         row[..ON_PORTS].iter_mut().zip(rim.by_ports.iter()).for_each(|(value, by)| *value -= by);
+        let by_motion = |axis: Axis| self.axes.gain(axis) * rim.accelerations[axis];
+        *constant -= Axis::ALL.into_iter().map(|axis| by_motion(axis) * line.traction.rigid[axis]).sum::<f64>();
         for (number, &axis) in self.sought.iter().enumerate() {
-            let by = self.axes.gain(axis) * rim.accelerations[axis];
-            row[self.places.motion(number)] -= by;
-            *constant -= by * line.traction.rigid[axis];
+            row[self.places.motion(number)] -= by_motion(axis);
         }
     }
 
     /// Adds the balance of a sought motion, or rest where a brake holds it.
-    fn add_balance(&self, axis: Axis, (own, unknowns): (&[OwnForces], &Unknowns), (row, constant): Row) {
+    fn add_balance(&self, axis: Axis, own: &[OwnForces], (row, constant): Row) {
         let balance = self.axes.row(axis, self.lines);
         *constant += balance.constant + balance.motions.dot(self.lines[0].traction.rigid);
         row[..ON_PORTS].iter_mut().zip(balance.ports).for_each(|(value, by)| *value += by);
@@ -238,8 +238,7 @@ impl<'a, 'b> Small<'a, 'b> {
             return;
         }
         for (k, (own, line)) in own.iter().zip(self.lines).enumerate() {
-            let closed = &unknowns.lines[k].closed;
-            let sum = own.sum(|place| line.pull_of_forces(axis, closed[place]));
+            let sum = own.sum(|place| line.pull_of_forces(axis, own.nodes[place]));
             self.add(k, &sum, line.problem.share, (&mut *row, &mut *constant));
         }
     }

@@ -9,6 +9,7 @@ use super::unknowns::LineUnknowns;
 use crate::axes::Axis;
 use crate::contact::flexibility::ByPowers;
 use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::rows::BodyRows;
 use crate::linalg::{DenseSystem, POINTS};
 use std::ops::Range;
 
@@ -41,7 +42,8 @@ pub struct OwnForces {
     pressed: Vec<[[f64; PRESSED]; 1]>,
     /// Tangential forces at the stuck nodes.
     sheared: Vec<[[f64; COLUMNS]; 1]>,
-    /// Tangential and normal forces at all closed nodes.
+    /// Closed nodes, then open ones with given tangential forces, and tangential and normal forces at all of them.
+    pub nodes: Vec<usize>,
     pub forces: Vec<[Felt; 2]>,
     /// Places of the stuck nodes among the closed ones, and their equations by unit tangential forces at these.
     stuck: Vec<usize>,
@@ -63,8 +65,11 @@ impl OwnForces {
         axes: (&Axes, &[Axis]),
         given: Option<&[f64]>,
     ) -> bool {
-        self.press(line, unknowns, axes.0) && {
-            self.forces.clear();
+        let bodies = line.body_rows();
+        self.press(line, unknowns, (axes.0, &bodies)) && {
+            let Self { pressed, nodes, forces, .. } = self;
+            nodes.clone_from(&unknowns.closed);
+            forces.clear();
             let of_node = |(k, pressed): (usize, &[[f64; PRESSED]; 1])| {
                 let mut forces = [[0.0; COLUMNS]; 2];
                 forces[1][..PRESSED].copy_from_slice(&pressed[0]);
@@ -74,13 +79,21 @@ impl OwnForces {
                 }
                 forces
             };
-            self.forces.extend(self.pressed.iter().enumerate().map(of_node));
-            given.is_some() || unknowns.stuck.is_empty() || self.shear(line, unknowns, axes)
+            forces.extend(pressed.iter().enumerate().map(of_node));
+            for (i, force) in given.unwrap_or_default().iter().enumerate() {
+                if *force != 0.0 && !line.state.status[i].is_active() {
+                    let mut felt = [[0.0; COLUMNS]; 2];
+                    felt[0][KNOWN] = *force;
+                    nodes.push(i);
+                    forces.push(felt);
+                }
+            }
+            given.is_some() || unknowns.stuck.is_empty() || self.shear(line, unknowns, axes, &bodies)
         }
     }
 
     /// Takes the pressures that close the gap.
-    fn press(&mut self, line: &ContactLine, unknowns: &LineUnknowns, axes: &Axes) -> bool {
+    fn press(&mut self, line: &ContactLine, unknowns: &LineUnknowns, (axes, bodies): (&Axes, &BodyRows)) -> bool {
         let Self { pressures, pressed, .. } = self;
         let (closed, along, grid) = (&unknowns.closed, line.kernel.normal, line.grid);
         pressures.reset(closed.len());
@@ -93,7 +106,7 @@ impl OwnForces {
             for (value, &j) in row.iter_mut().zip(closed) {
                 *value = 2.0 * along.displacement(logarithms[j + grid.guard]);
             }
-            let equation = axes.equation(line.gap_row(i));
+            let equation = axes.equation(line.gap_row(i, bodies));
             let mut sides = [0.0; PRESSED];
             sides[KNOWN] = -(equation.constant + equation.motions.dot(line.traction.rigid));
             sides[OPENED].iter_mut().zip(&grid.values[node]).for_each(|(side, value)| *side = -value);
@@ -108,7 +121,13 @@ impl OwnForces {
     }
 
     /// Takes the shear that keeps stuck nodes from slipping.
-    fn shear(&mut self, line: &ContactLine, unknowns: &LineUnknowns, (axes, sought): (&Axes, &[Axis])) -> bool {
+    fn shear(
+        &mut self,
+        line: &ContactLine,
+        unknowns: &LineUnknowns,
+        (axes, sought): (&Axes, &[Axis]),
+        bodies: &BodyRows,
+    ) -> bool {
         let Self { shear, sheared, forces, stuck, row, .. } = self;
         let (closed, count) = (&unknowns.closed, unknowns.stuck.len());
         stuck.clear();
@@ -116,7 +135,7 @@ impl OwnForces {
         shear.reset(count);
         sheared.clear();
         for (r, &i) in unknowns.stuck.iter().enumerate() {
-            let (affine, upwind) = line.slip_row(i);
+            let (affine, upwind) = line.slip_row(i, bodies);
             let equation = axes.equation(affine);
             let mut sides = [0.0; COLUMNS];
             sides[KNOWN] = -(equation.constant + equation.motions.dot(line.traction.rigid));
@@ -146,7 +165,7 @@ impl OwnForces {
         true
     }
 
-    /// Sum over the closed nodes of tangential and normal forces, times factors.
+    /// Sum over the nodes of tangential and normal forces, times factors.
     pub fn sum(&self, factors: impl Fn(usize) -> [f64; 2]) -> Felt {
         let mut sum = [0.0; COLUMNS];
         for (k, [tangential, normal]) in self.forces.iter().enumerate() {

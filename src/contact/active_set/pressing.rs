@@ -46,6 +46,25 @@ impl PressureSearch {
             shear.clear();
             shear.extend((0..line.grid.len()).map(|i| line.tangential(i)));
         }
+        let settled = self.settle(lines, axes, rules, thoroughness, solver);
+        // Open nodes have kept their shear so far, so that they press on the same surfaces when they close.
+        for line in lines {
+            for i in (0..line.grid.len()).filter(|&i| !line.state.status[i].is_active()) {
+                line.state.forces[line.grid.component(i)] = 0.0;
+            }
+        }
+        settled
+    }
+
+    /// Iterates until closed nodes and pressures under the shear forces at hand settle; true if they do.
+    fn settle(
+        &mut self,
+        lines: &mut [ContactLine],
+        axes: &Axes,
+        rules: &Rules,
+        thoroughness: Thoroughness,
+        solver: &mut LinearSolver,
+    ) -> Result<bool, ContactError> {
         for iteration in 0..thoroughness.most {
             self.unknowns.list_pressures(lines, axes);
             solver.solve(lines, (axes, &self.unknowns), Some(&self.shear))?;

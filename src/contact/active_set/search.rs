@@ -16,6 +16,7 @@ use super::states::{self, Rules};
 use super::unknowns::Unknowns;
 use crate::axes::Axis;
 use crate::contact::error::ContactError;
+use crate::contact::line::alone::Alone;
 use crate::contact::line::contact_line::{ContactLine, LineScratch, LineStart};
 use crate::contact::line::state::NodeStatus;
 use crate::contact::line::{ContactGrid, exchange, finish, zone};
@@ -106,7 +107,10 @@ impl<'a> ActiveSet<'a> {
         lines.iter_mut().for_each(|line| line.traction.rigid = problem.rigid.map(|motion| motion.start()));
         exchange::forces(&mut lines);
         // Lever arms of the start: without what the lines' own flexibility adds to them moments would not balance at once.
-        lines.iter_mut().for_each(ContactLine::lift);
+        lines.iter_mut().for_each(|line| {
+            Alone { kernel: line.kernel, grid }.find(line.state.forces.as_slice(), &mut line.iterate.own);
+            line.lift();
+        });
         let penalties = lines.iter().map(states::penalty).collect();
         Self { problem, grid, lines, penalties, axes: Axes::new(&problem.rigid), memory }
     }

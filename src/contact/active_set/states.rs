@@ -42,19 +42,16 @@ impl Rules {
     }
 }
 
-/// Mean stiffness of the nodes [N/m per m].
+/// Stiffness of the node in the middle [N/m per m].
 pub(super) fn penalty(line: &ContactLine) -> f64 {
     let shared = line.problem.bodies.shared.relative;
-    let flexibility = |i: usize| {
-        let (node, mut by_bodies) = (i + line.grid.guard, 0.0);
-        let values = &line.grid.values[node];
-        for (k, at) in values.iter().enumerate() {
-            let of_points = values.iter().enumerate().map(|(l, by)| shared[(2 * k + 1, 2 * l + 1)] * by);
-            by_bodies += at * of_points.sum::<f64>();
-        }
-        2.0 * line.alone().by_force(1, node, node) + line.problem.share * by_bodies
-    };
-    line.grid.len() as f64 / (0..line.grid.len()).map(flexibility).sum::<f64>()
+    let (node, mut by_bodies) = (line.grid.nodes().len() / 2, 0.0);
+    let values = &line.grid.values[node];
+    for (k, at) in values.iter().enumerate() {
+        let of_points = values.iter().enumerate().map(|(l, by)| shared[(2 * k + 1, 2 * l + 1)] * by);
+        by_bodies += at * of_points.sum::<f64>();
+    }
+    1.0 / (2.0 * line.alone().by_force(1, node, node) + line.problem.share * by_bodies)
 }
 
 /// Takes new states of all nodes, or of the `last` one alone that is wrong; returns whether any changed. `before` is

@@ -64,7 +64,7 @@ impl ContactLine<'_> {
     /// Takes the displacements at all nodes by the line's own lateral forces.
     fn displace_across(&mut self) {
         let Self { grid, problem, iterate, state, kernel, .. } = self;
-        let LineIterate { across, displaced: [_, body], .. } = &mut **iterate;
+        let LineIterate { across, displaced: body, .. } = &mut **iterate;
         across.centred_slip.resize(grid.len(), 0.0);
         across.displaced.clear();
         across.displaced.resize(grid.components() / 2, 0.0);

@@ -51,8 +51,8 @@ pub struct LineIterate {
     pub centred_slip: Vec<f64>,
     /// Displacement by the own flexibility.
     pub own: OwnDisplacement,
-    /// Nodal forces of one component [N/m], and the displacement by them \[m].
-    pub displaced: [Vec<f64>; 2],
+    /// Displacement of one body by lateral forces \[m].
+    pub displaced: Vec<f64>,
     /// Lateral part.
     pub across: LineAcross,
 }

@@ -54,8 +54,16 @@ fn remember(line: &mut ContactLine) {
 /// Takes the loads on the bodies, the work of the pulls among them, and the energy of the line's own flexibility under them.
 fn load(line: &mut ContactLine) {
     let ContactLine { grid, problem, given, state, before, traction, energy, damping, iterate, .. } = line;
-    let (mut loads, alone) = (Vec::new(), Alone { kernel: problem.kernel, grid });
+    let (mut loads, alone) = (Vec::new(), Alone { kernel: problem.kernel.without_reach(), grid });
     (traction.pull_work, **damping) = (0.0, 0.0);
+    let prompt = problem.bodies.retarded.iter().all(Option::is_none);
+    if prompt && given.layers.pull.iter().chain(&before.pull).all(Vec::is_empty) {
+        // Both bodies are displaced alike by the contact forces, as in the last iterate.
+        **energy += iterate.own.along.dot(&state.forces);
+        traction.loads = [traction.port_forces.clone(), -&traction.port_forces];
+        state.pull.iter_mut().for_each(Vec::clear);
+        return;
+    }
     for (body, sign) in [(0, 1.0), (1, -1.0)] {
         let layers = &given.layers;
         traction.loads[body] = &traction.port_forces * sign;
@@ -69,6 +77,8 @@ fn load(line: &mut ContactLine) {
             traction.pull_work += mean * (state.surface[body][at] - before.surface[body][at]);
         }
         nodal_loads(grid, &state.forces, &layers.pull[body], body, &mut loads);
+        let sum = |component: usize| loads.iter().skip(component).step_by(2).sum::<f64>();
+        **energy += problem.kernel.energy_of_reach([0, 1].map(sum));
         if let Some(layer) = problem.bodies.retarded[body] {
             let (time, known) = (&problem.time, &given.elastic[body]);
             state.elastic[body].resize(grid.components(), History::default());

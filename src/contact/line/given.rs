@@ -87,7 +87,7 @@ impl KnownPart {
         elastic[body].extend(histories.iter().map(|history| factor * history.offset(&problem.time)));
         // A state without forces yet is at rest.
         elastic[body].resize(grid.components(), 0.0);
-        Alone { kernel: problem.kernel, grid }.find(&elastic[body], own);
+        Alone { kernel: problem.kernel.without_reach(), grid }.find(&elastic[body], own);
         own.add_to(body, &mut displacement[body]);
     }
 

@@ -5,6 +5,7 @@ use super::contact_line::{ContactLine, LineIterate};
 use super::rim::RimFrame;
 use super::streamline::UpwindWeights;
 use super::vectors::copy;
+use crate::contact::kernel::LineKernel;
 use crate::axes::{Axis, PerAxis};
 
 impl ContactLine<'_> {
@@ -126,21 +127,20 @@ impl ContactLine<'_> {
 
     /// Takes the height that the flexibility of the line alone lacks in lever arms, see [`LineIterate::lift`].
     pub fn lift(&mut self) {
-        let (grid, problem, load) = (self.grid, self.problem, self.load_of_all());
-        let alone = Alone { kernel: self.kernel, grid };
-        let LineIterate { lift, displaced: [normal, displaced], .. } = &mut *self.iterate;
+        let (grid, load, LineKernel { tangential, normal, .. }) = (self.grid, self.load_of_all(), self.kernel);
+        let lift = &mut self.iterate.lift;
         lift.clear();
-        if self.kernel.tangential == self.kernel.normal {
+        if tangential == normal {
             return;
         }
-        lift.resize(grid.len(), problem.bodies.lift * load);
-        let first = grid.component(0) / 2;
-        normal.clear();
-        normal.extend((0..grid.len()).map(|i| self.state.forces[grid.component(i) + 1]));
-        for (component, sign) in [(0, 1.0), (1, -1.0)] {
-            alone.displace(component, first, normal, displaced);
-            lift.iter_mut().zip(&displaced[first..]).for_each(|(lift, moved)| *lift += sign * moved);
-        }
+        let carried: f64 = (0..grid.len()).map(|i| self.state.forces[grid.component(i) + 1]).sum();
+        // The logarithms of the distances by normal forces displace the line along these already.
+        let [by_force, constant] = [
+            tangential.factor / normal.factor - 1.0,
+            tangential.factor * (tangential.reach - normal.reach) * carried + self.problem.bodies.lift * load,
+        ];
+        let along = &self.iterate.own.along;
+        lift.extend((0..grid.len()).map(|i| constant + by_force * along[grid.component(i) + 1]));
     }
 
     /// Lever arms about the hub centre of the tangential and the normal force at candidate `i` \[m].

@@ -68,7 +68,7 @@ impl Retarded {
                 let Some(layer) = layer else { continue };
                 nodal_loads(grid, own, &given.layers.pull[body], body, &mut self.ahead);
                 let turning = if body == 0 { 1.0 / problem.surfaces.radius } else { 0.0 };
-                let alone = Alone { kernel: problem.kernel, grid };
+                let alone = Alone { kernel: problem.kernel.without_reach(), grid };
                 self.force[body] = self.of_line(alone, body, layer, &given.elastic[body], turning)
                     + of_body(grid, layer, &all.on(body), turning);
             }

@@ -30,22 +30,48 @@ pub struct UpwindSlip {
     by_angle: f64,
 }
 
+/// What forces on the ports and rigid accelerations do to the points of the bodies, for all rows of a line.
+pub struct BodyRows {
+    /// Displacement of the wheel less that of the rail, along.
+    moved: [[f64; BODY_COLUMNS]; POINTS],
+    /// Displacements of both along, times the velocities that carry them [m/s].
+    carried: [[f64; BODY_COLUMNS]; POINTS],
+    /// Rise of the wheel by rigid accelerations.
+    raised: [[f64; Axis::COUNT]; POINTS],
+}
+
+/// Forces on the ports, then rigid accelerations.
+const BODY_COLUMNS: usize = 2 * POINTS + Axis::COUNT;
+
+/// Sum of columns times factors.
+fn combine<const N: usize>(factors: &[f64; POINTS], columns: &[[f64; N]; POINTS], sum: &mut [f64; N]) {
+    for (factor, columns) in factors.iter().zip(columns) {
+        sum.iter_mut().zip(columns).for_each(|(sum, value)| *sum += factor * value);
+    }
+}
+
 impl ContactLine<'_> {
-    /// Rigid accelerations that displace the wheel along (`component` 0) or normal to the surface at a node, by unit
-    /// accelerations.
-    fn inertial_at(&self, node: usize, component: usize) -> PerAxis<f64> {
-        let (values, bodies) = (&self.grid.values[node], &self.problem.bodies);
-        let of_axis = |axis: Axis| {
-            let of_point = |(k, value): (usize, &f64)| value * bodies.inertial[(2 * k + component, axis.number())];
-            values.iter().enumerate().map(of_point).sum()
+    /// What the bodies do in the rows of this line.
+    pub fn body_rows(&self) -> BodyRows {
+        let (bodies, v, velocity) = (&self.problem.bodies, self.traction.rigid.travel, self.rim_velocity());
+        let Influence { compliance: [wheel, rail], relative } = bodies.shared;
+        let of = |k: usize, by: usize| match by.checked_sub(2 * POINTS) {
+            None => (relative[(2 * k, by)], velocity * wheel[(2 * k, by)] + v * rail[(2 * k, by)]),
+            Some(axis) => (bodies.inertial[(2 * k, axis)], velocity * bodies.inertial[(2 * k, axis)]),
         };
-        PerAxis::from_fn(of_axis)
+        BodyRows {
+            moved: std::array::from_fn(|k| std::array::from_fn(|by| of(k, by).0)),
+            carried: std::array::from_fn(|k| std::array::from_fn(|by| of(k, by).1)),
+            raised: std::array::from_fn(|k| std::array::from_fn(|axis| bodies.inertial[(2 * k + 1, axis)])),
+        }
     }
 
     /// The gap at a candidate without that by forces \[m].
-    pub fn gap_row(&self, i: usize) -> AffineRow {
+    pub fn gap_row(&self, i: usize, bodies: &BodyRows) -> AffineRow {
         let (at, x) = (self.grid.component(i) + 1, self.grid.x[i]);
-        let accelerations = self.inertial_at(at / 2, 1);
+        let mut raised = [0.0; Axis::COUNT];
+        combine(&self.grid.values[at / 2], &bodies.raised, &mut raised);
+        let accelerations = PerAxis::from_fn(|axis| raised[axis.number()]);
         let [wheel, rail] = &self.given.displacement;
         let constant = self.given.gap[i] + wheel[at] - x * self.frame.rim_angle - rail[at];
         let motions = PerAxis::unit(Axis::Height);
@@ -54,28 +80,21 @@ impl ContactLine<'_> {
 
     /// The slip at a candidate without that by own forces [m/s], linearised in V, Ω and the rim angle about the present
     /// iterate, and its upwind difference.
-    pub fn slip_row(&self, i: usize) -> (AffineRow, UpwindSlip) {
+    pub fn slip_row(&self, i: usize, bodies: &BodyRows) -> (AffineRow, UpwindSlip) {
         let (problem, at) = (self.problem, self.grid.component(i));
         let (v, velocity, gain) = (self.traction.rigid.travel, self.rim_velocity(), problem.time.a0);
         let [wheel, rail] = &self.given.displacement;
-        let mut accelerations = self.inertial_at(at / 2, 0).map(|by| gain * by);
         let mut constant = gain * (wheel[at] - rail[at]) + self.given.slip_offset[i];
         let upwind = self.upwind_slip(i);
         let mut slopes = [0.0; POINTS];
         for (at, weight) in upwind.stencil {
-            accelerations.add(-velocity * weight, self.inertial_at(at / 2, 0));
             constant += weight * (v * rail[at] - velocity * self.frame.tangential(wheel, at));
-            slopes.iter_mut().zip(self.grid.values[at / 2]).for_each(|(slope, value)| *slope += weight * value);
+            slopes.iter_mut().zip(self.grid.values[at / 2]).for_each(|(slope, value)| *slope -= weight * value);
         }
-        let Influence { compliance: [of_wheel, of_rail], relative } = problem.bodies.shared;
-        let values = &self.grid.values[at / 2];
-        let by_port = |by: usize| {
-            let of_point = |k: usize| {
-                let carried = velocity * of_wheel[(2 * k, by)] + v * of_rail[(2 * k, by)];
-                gain * values[k] * relative[(2 * k, by)] - slopes[k] * carried
-            };
-            (0..POINTS).map(of_point).sum()
-        };
+        let mut by_bodies = [0.0; BODY_COLUMNS];
+        combine(&self.grid.values[at / 2].map(|value| gain * value), &bodies.moved, &mut by_bodies);
+        combine(&slopes, &bodies.carried, &mut by_bodies);
+        let accelerations = PerAxis::from_fn(|axis| by_bodies[2 * POINTS + axis.number()]);
         let [stretch_wheel, stretch_rail] = upwind.stretches;
         let (travel, rotation) = (1.0 + stretch_rail, -problem.radius() * (1.0 + stretch_wheel));
         let mut motions = PerAxis { travel, rotation, ..PerAxis::default() };
@@ -83,7 +102,7 @@ impl ContactLine<'_> {
             motions.add(-problem.position, PerAxis::from_fn(|axis| self.spin.by(axis)));
         }
         constant += -v * stretch_rail + problem.radius() * self.traction.rigid.rotation * stretch_wheel;
-        let ports = std::array::from_fn(by_port);
+        let ports = std::array::from_fn(|port| by_bodies[port]);
         (AffineRow { ports, angle: upwind.by_angle, motions, accelerations, constant }, upwind)
     }
 

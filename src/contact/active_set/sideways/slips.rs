@@ -67,9 +67,10 @@ fn slip_rows<const N: usize>(line: &ContactLine, nodes: &[usize]) -> SlipRows<N,
         powers: vec![[0.0; N]; POINTS],
     };
     let Some(patch) = line.problem.patch else { return rows };
+    let bodies = line.body_rows();
     let of_moments = patch.own(0).map(|own| own.slips(slip_of_field(rates(line), patch.half_length)));
     for (place, &i) in nodes.iter().enumerate() {
-        let (affine, upwind) = line.slip_row(i);
+        let (affine, upwind) = line.slip_row(i, &bodies);
         line.slips_by_own(i, &upwind, nodes, |by, slip| rows.by_shear[0][by][place] += slip);
         let powers = patch.powers(line.grid.x[i]);
         let felt = of_moments.map(|slips| slips.map(|slip| at(&slip, &powers)));
