@@ -29,7 +29,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("mechanics", &["surface", "fem", "linalg", "multistep", "axes", "config", "analytic", "material"]),
     ("heat", &["fem", "linalg", "config", "piecewise", "lru"]),
     ("surface", &["config", "files", "piecewise"]),
-    ("contact", &["analytic", "patch", "surface", "config", "linalg", "multistep", "axes", "piecewise", "lru"]),
+    ("contact", &["analytic", "patch", "surface", "config", "linalg", "multistep", "axes", "piecewise"]),
     ("damage", &["fem", "linalg"]),
     (
         "rolling",

@@ -141,31 +141,6 @@ vectorised! {
 }
 
 vectorised! {
-    /// `xᵀ A x` of a symmetric matrix with the given columns; entries of zero in `x` cost little.
-    fn quadratic_form<'a, S>(simd, columns: &'a [f64], x: &'a [f64]) -> f64 {
-        let (n, zero) = (x.len(), simd.splat_f64s(0.0));
-        let first = x.iter().position(|value| *value != 0.0).unwrap_or(n);
-        let mut total = 0.0;
-        for j in (first..n).filter(|&j| x[j] != 0.0) {
-            let column = &columns[j * n..(j + 1) * n];
-            let ((a, a_rest), (b, b_rest)) = (S::as_simd_f64s(&column[first..j]), S::as_simd_f64s(&x[first..j]));
-            let (mut sums, (a_twos, a_one), (b_twos, b_one)) = ([zero; 2], a.as_chunks::<2>(), b.as_chunks::<2>());
-            for (a, b) in a_twos.iter().zip(b_twos) {
-                sums[0] = simd.mul_add_e_f64s(a[0], b[0], sums[0]);
-                sums[1] = simd.mul_add_e_f64s(a[1], b[1], sums[1]);
-            }
-            for (&a, &b) in a_one.iter().zip(b_one) {
-                sums[0] = simd.mul_add_e_f64s(a, b, sums[0]);
-            }
-            let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-            let above = simd.reduce_sum_f64s(simd.add_f64s(sums[0], sums[1])) + rest;
-            total += x[j] * (column[j] * x[j] + 2.0 * above);
-        }
-        total
-    }
-}
-
-vectorised! {
     /// `out ← out + factor · A x` with the columns of `A`, as long as `out`, whose first entries are `apart` entries
     /// apart.
     fn add_columns<'a, S>(simd, factor: f64, columns: &'a [f64], apart: usize, x: &'a [f64], out: &'a mut [f64]) {
@@ -230,37 +205,6 @@ fn add_columns_to<S: pulp::Simd, const B: usize>(
     }
     out.copy_from_slice(&sums);
 }
-
-vectorised! {
-    /// `out ← out + factor · Aᵀ x` with the columns of `A`, as long as `x`, whose first entries are `apart` entries
-    /// apart.
-    fn add_products<'a, S>(simd, factor: f64, columns: &'a [f64], apart: usize, x: &'a [f64], out: &'a mut [f64]) {
-        let (x, x_rest) = S::as_simd_f64s(x);
-        // Several columns in one pass over the vector.
-        for (block, out) in out.chunks_mut(COLUMNS).enumerate() {
-            let part = |j: usize| {
-                let first = (block * COLUMNS + j.min(out.len() - 1)) * apart;
-                S::as_simd_f64s(&columns[first..][..x.len() * S::F64_LANES + x_rest.len()])
-            };
-            let parts: [_; COLUMNS] = std::array::from_fn(part);
-            let [a, b, c, d] = parts.map(|(part, _)| &part[..x.len()]);
-            let mut sums = [simd.splat_f64s(0.0); COLUMNS];
-            for (k, &x) in x.iter().enumerate() {
-                sums[0] = simd.mul_add_e_f64s(a[k], x, sums[0]);
-                sums[1] = simd.mul_add_e_f64s(b[k], x, sums[1]);
-                sums[2] = simd.mul_add_e_f64s(c[k], x, sums[2]);
-                sums[3] = simd.mul_add_e_f64s(d[k], x, sums[3]);
-            }
-            for ((out, sum), (_, rest)) in out.iter_mut().zip(sums).zip(parts) {
-                let rest: f64 = rest.iter().zip(x_rest).map(|(a, b)| a * b).sum();
-                *out += factor * (simd.reduce_sum_f64s(sum) + rest);
-            }
-        }
-    }
-}
-
-/// Columns that are added, or multiplied, at a time.
-const COLUMNS: usize = 4;
 
 /// Effect of a product on its target.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -368,21 +312,6 @@ mod tests {
                 for (i, out) in out.iter().enumerate() {
                     assert_eq!(*out, i as f64 - 2.0 * (0..count).map(|j| number(i, every * j) * x[j]).sum::<f64>());
                 }
-            }
-        }
-    }
-
-    #[test]
-    fn columns_of_any_number_and_length_are_multiplied() {
-        for (length, count) in [(0, 3), (1, 1), (3, 4), (8, 6), (17, 9)] {
-            let number = |i: usize, j: usize| ((5 * i + 3 * j) % 13) as f64 - 6.0;
-            let apart = length + 2;
-            let matrix: Vec<f64> = (0..count).flat_map(|j| (0..apart).map(move |i| number(i, j))).collect();
-            let x: Vec<f64> = (0..length).map(|i| i as f64 - 2.0).collect();
-            let mut out: Vec<f64> = (0..count).map(|j| j as f64).collect();
-            add_products(-2.0, &matrix, apart, &x, &mut out);
-            for (j, out) in out.iter().enumerate() {
-                assert_eq!(*out, j as f64 - 2.0 * (0..length).map(|i| number(i, j) * x[i]).sum::<f64>());
             }
         }
     }

@@ -275,8 +275,8 @@ mod tests {
         assert!(basis.fits(&other) && !basis.fits(&config));
         let pair = bodies(&other, Some(basis), &mut |_, _| {}).unwrap();
         assert_eq!((pair.wheel.state_len(), pair.rail.state_len()), (4, 5));
-        // 18 elements with five cells of the contact grid each.
-        assert_eq!((pair.surface_x.len(), pair.candidates), (91, 3..88));
+        // 34 elements, wings included, with five cells of the contact grid each.
+        assert_eq!((pair.surface_x.len(), pair.candidates), (171, 3..168));
     }
 
     #[test]

@@ -4,7 +4,6 @@ use super::MechanicsError;
 use super::damping::{BodyDamping, DampedModes};
 use super::motion::{BodyResponse, Equations, centrifugal_work};
 use super::reduction::scale_columns;
-use super::remainder::missing;
 use super::response::{BodyState, StepOperator, fit};
 use super::retarded::{RetardedLayer, quadratic_form};
 use super::smooth::SmoothPorts;
@@ -15,7 +14,6 @@ use crate::axes::PerAxis;
 use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CholeskyPattern, CsrMatrix, LinalgError};
 use nalgebra::{DMatrix, DVector};
-use std::ops::Range;
 use std::sync::Arc;
 
 /// State: all free nodal displacements.
@@ -26,8 +24,8 @@ pub struct FullBody {
     damping: Option<FullDamping>,
     /// Components of the ports by those of the surface nodes; `None`: these are the ports.
     on_points: Option<DMatrix<f64>>,
-    /// Flexibility that the finite elements lack between the ports: between near surface nodes ([`missing`]), or, at the
-    /// points of [`SmoothPorts`], besides less that of a half-plane [m/(N/m)].
+    /// Flexibility that the finite elements lack between the ports: none between surface nodes, and at the points of
+    /// [`SmoothPorts`] the error between near nodes, less a half-plane [m/(N/m)].
     lacking: DMatrix<f64>,
 }
 
@@ -77,46 +75,21 @@ impl FullBody {
         Ok(body)
     }
 
-    /// This body with the flexibility that it lacks between its surface nodes `x` \[m] beside one with the elasticity of
-    /// `half_plane`; the body lies above its surface (`side` 1) or below it (−1).
-    pub(super) fn corrected(mut self, x: &[f64], half_plane: HalfPlane, side: f64) -> Result<Self, MechanicsError> {
-        self.lacking = missing(&self.operator(0.0)?.surface, x, half_plane, side);
-        if let Some(layer) = self.damping.as_mut().and_then(|damping| damping.layer.as_mut()) {
-            Arc::make_mut(layer).flexibility.clone_from(&self.lacking);
-        }
-        Ok(self)
-    }
-
     /// This body, whose ports are its surface nodes, less a half-plane on points of their zone.
-    pub(super) fn smooth(&self, ports: &SmoothPorts, half_plane: HalfPlane, side: f64) -> Result<Self, MechanicsError> {
-        let (compliance, on_points) = (self.operator(0.0)?.surface - &self.lacking, ports.components());
+    pub(super) fn smooth(
+        mut self,
+        ports: &SmoothPorts,
+        half_plane: HalfPlane,
+        side: f64,
+    ) -> Result<Self, MechanicsError> {
+        let (compliance, on_points) = (self.operator(0.0)?.surface, ports.components());
         let mut lacking = ports.remainder(&compliance, half_plane, side);
         lacking -= &on_points * compliance * on_points.transpose();
         symmetrise(&mut lacking);
-        Ok(self.with_ports(self.system.clone(), Some(on_points), lacking))
-    }
-
-    /// This body with only the surface components `ports`.
-    pub fn cut(&self, ports: Range<usize>) -> Self {
-        let (mut system, mut on_points) = (self.system.clone(), None);
-        match &self.on_points {
-            Some(whole) => on_points = Some(whole.rows(ports.start, ports.len()).into_owned()),
-            None => system.surface = system.surface[ports.clone()].to_vec(),
+        if let Some(layer) = self.damping.as_mut().and_then(|damping| damping.layer.as_mut()) {
+            Arc::make_mut(layer).flexibility.clone_from(&lacking);
         }
-        let lacking = self.lacking.view((ports.start, ports.start), (ports.len(), ports.len())).into_owned();
-        self.with_ports(system, on_points, lacking)
-    }
-
-    /// This body with other ports, between which its elements lack the flexibility `lacking`.
-    fn with_ports(&self, system: BodySystem, on_points: Option<DMatrix<f64>>, lacking: DMatrix<f64>) -> Self {
-        let retarded =
-            |layer: &Arc<RetardedLayer>| Arc::new(RetardedLayer { flexibility: lacking.clone(), time: layer.time });
-        let damping = self.damping.as_ref().map(|FullDamping { rayleigh, modes, layer }| FullDamping {
-            rayleigh: *rayleigh,
-            modes: modes.clone(),
-            layer: layer.as_ref().map(retarded),
-        });
-        Self { system, pattern: self.pattern.clone(), centrifugal: self.centrifugal, damping, on_points, lacking }
+        Ok(Self { on_points: Some(on_points), lacking, ..self })
     }
 
     /// Several fields at the ports.

@@ -62,10 +62,7 @@ pub fn bodies(
             progress("assembling the rail", 0.5);
             let rail = FullBody::damped(rail_system(config)?, false, &damping[1], counts[1])?;
             progress("assembling the rail", 1.0);
-            [
-                Box::new(wheel.smooth(&points, half_plane, above)?),
-                Box::new(rail.smooth(&points, half_plane, below)?),
-            ]
+            [Box::new(wheel.smooth(&points, half_plane, above)?), Box::new(rail.smooth(&points, half_plane, below)?)]
         }
     };
     let surface_x = divided(&elements, parts);

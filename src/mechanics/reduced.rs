@@ -14,13 +14,13 @@
 use super::MechanicsError;
 use super::damping::BodyDamping;
 use super::kinds::ModeKinds;
-use super::mirrored::{MirroredModes, symmetric_product};
 use super::motion::{BodyResponse, Equations, centrifugal_work, column};
 use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyState, StepOperator, fit};
-use super::retarded::{RetardedLayer, add_filled, add_product, quadratic_form};
+use super::retarded::{RetardedLayer, add_product, quadratic_form};
 use super::solver::{Dense, Diagonal, StepSolver};
 use crate::axes::{Axis, PerAxis};
+use crate::linalg::dense::symmetrise;
 use crate::linalg::vectorised::{self, dot};
 use nalgebra::{DMatrix, DVector};
 use std::borrow::Cow;
@@ -34,8 +34,6 @@ pub struct ReducedBody {
     /// Surface values of the modes, and what their basis carries, with a column for each port.
     by_port: DMatrix<f64>,
     carried: Option<DMatrix<f64>>,
-    /// Modes that are even or odd; `None`: they are neither.
-    mirrored: Option<MirroredModes>,
     /// Centrifugal load of the spinning wheel.
     centrifugal: bool,
     /// Damping of each mode; `None`: by dashpots at most.
@@ -81,7 +79,7 @@ impl ReducedBody {
         let layer = (damping.stiffness > 0.0)
             .then(|| Arc::new(RetardedLayer { flexibility: basis.residual.clone(), time: damping.stiffness }));
         let (by_port, carried) = (basis.shapes.transpose(), basis.carried.as_ref().map(DMatrix::transpose));
-        Self { mirrored: MirroredModes::new(&basis.shapes), by_port, carried, basis, kinds, centrifugal, modal, layer }
+        Self { by_port, carried, basis, kinds, centrifugal, modal, layer }
     }
 
     /// Convection of the truncated modes into the rates of the kept ones, per force, and the forces that deform them;
@@ -106,7 +104,7 @@ impl ReducedBody {
         out.fill(0.0);
         self.kinds.add_odd(1.0, &modal.transport, &state.displacement, out);
         if let Some((carried, forces)) = self.carried(state) {
-            add_filled(carried, forces, out);
+            add_product(1.0, carried, forces, out);
         }
     }
 
@@ -119,18 +117,16 @@ impl ReducedBody {
         }
         let Some(damping) = damping else {
             let inverse = diagonal.map(|value| 1.0 / value);
-            let flexibility = match &self.mirrored {
-                Some(modes) => modes.flexibility(&inverse),
-                None => symmetric_product(&scale_columns(shapes, &inverse), &shapes.transpose()),
-            };
+            let mut flexibility = scale_columns(shapes, &inverse) * &self.by_port;
+            symmetrise(&mut flexibility);
             let answer = DMatrix::from_fn(self.basis.modes(), Axis::COUNT, |i, k| inverse[i] * rigid[(i, k)]);
             return Ok(Factorised { solver: Box::new(Diagonal { inverse }), flexibility, answer });
         };
         let mut matrix = damping * a0;
         matrix.set_diagonal(&(matrix.diagonal() + diagonal));
         let solver = Dense::new(matrix)?;
-        let transposed = shapes.transpose();
-        let flexibility = symmetric_product(&solver.solve(&transposed).transpose(), &transposed);
+        let mut flexibility = shapes * solver.solve(&self.by_port);
+        symmetrise(&mut flexibility);
         let answer = solver.solve(rigid);
         Ok(Factorised { solver: Box::new(solver), flexibility, answer })
     }
@@ -193,15 +189,14 @@ impl Equations for ReducedBody {
     fn set_surface(&self, y: &DVector<f64>, square: f64, surface: &mut DVector<f64>) {
         fit(surface, self.basis.shapes.nrows());
         surface.fill(0.0);
-        let modes = self.by_port.nrows();
-        vectorised::add_products(1.0, self.by_port.as_slice(), modes, y.as_slice(), surface.as_mut_slice());
+        add_product(1.0, &self.basis.shapes, y, surface);
         if self.centrifugal {
             surface.axpy(square, &self.basis.centrifugal_residual, 1.0);
         }
     }
 
     fn add_surface_forces(&self, forces: &DVector<f64>, load: &mut DVector<f64>) {
-        add_filled(&self.by_port, forces, load);
+        add_product(1.0, &self.by_port, forces, load);
     }
 }
 
@@ -288,7 +283,6 @@ mod tests {
     fn reduced_body_is_exact_in_statics() {
         for (reduced, full) in pairs(12) {
             let (r, f) = (reduced.operator(0.0).unwrap(), full.operator(0.0).unwrap());
-            assert!(reduced.mirrored.is_some(), "modes are even or odd");
             assert!(difference(&r.surface, &f.surface) < 1e-9);
             assert!(difference(&r.inertial_response, &f.inertial_response) < 1e-9);
             assert!(r.momentum.amax() == 0.0 && r.deformation_inertia.amax() == 0.0);

@@ -10,7 +10,6 @@ use crate::linalg::Parity;
 use crate::linalg::dense::symmetrise;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
-use std::ops::Range;
 
 /// Constant data of a reduced body with `m` modes and `n` surface nodes, per metre of width.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -150,18 +149,12 @@ impl ReducedBasis {
         }
     }
 
-    /// This body with only the surface components `ports`.
-    pub fn cut(&self, ports: Range<usize>) -> Self {
-        let (first, count) = (ports.start, ports.len());
-        let square = self.residual.view((first, first), (count, count));
-        Self {
-            shapes: self.shapes.rows(first, count).into_owned(),
-            residual: square.into_owned(),
-            rigid_residual: self.rigid_residual.rows(first, count).into_owned(),
-            centrifugal_residual: self.centrifugal_residual.rows(first, count).into_owned(),
-            carried: self.carried.as_ref().map(|carried| carried.rows(first, count).into_owned()),
-            ..self.clone()
-        }
+    /// Static displacements of the surface nodes by forces on them, x and y of every node [m/(N/m)].
+    pub(super) fn compliance(&self) -> DMatrix<f64> {
+        let weighted = scale_columns(&self.shapes, &self.squared_frequencies.map(f64::recip));
+        let mut compliance = self.residual.clone();
+        compliance.gemm(1.0, &weighted, &self.shapes.transpose(), 1.0);
+        compliance
     }
 
     /// Number of modes.

@@ -3,7 +3,7 @@
 //! `F λ_e` with the elastic part `λ_e` of the nodal forces, `λ_e + α1 d_t λ_e = λ`: springs and dashpots side by side
 //! (Kelvin–Voigt). With `d_t λ_e = a0 λ_e + h` of the time formula, `λ_e = (λ − α1 h)/(1 + α1 a0)`.
 
-use crate::linalg::vectorised::{self, add_columns};
+use crate::linalg::vectorised::{add_columns, dot};
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -32,13 +32,6 @@ impl RetardedForces {
     /// True if all three belong to `ports` surface components.
     pub fn fits(&self, ports: usize) -> bool {
         [&self.now, &self.before, &self.rate].iter().all(|values| values.len() == ports)
-    }
-
-    /// Gives the same forces to `ports` surface components about the same middle; those that there were not are zero.
-    pub fn fit_to(&mut self, ports: usize) {
-        for values in [&mut self.now, &mut self.before, &mut self.rate].into_iter().filter(|v| !v.is_empty()) {
-            resize_about_middle(values, ports);
-        }
     }
 
     /// Known part of `d_t` at one port in the coming step; a state without forces yet is at rest.
@@ -108,26 +101,10 @@ pub(super) fn add_product(factor: f64, a: &DMatrix<f64>, x: &DVector<f64>, out: 
     add_columns(factor, a.as_slice(), out.len(), x.as_slice(), out.as_mut_slice());
 }
 
-/// `out ← out + A x`; zeros at the ends of `x` cost nothing.
-pub(super) fn add_filled(a: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
-    let first = x.iter().position(|value| *value != 0.0).unwrap_or(x.len());
-    let filled = first..x.iter().rposition(|value| *value != 0.0).map_or(first, |last| last + 1);
-    if !filled.is_empty() {
-        let (columns, x) = (&a.as_slice()[first * a.nrows()..], &x.as_slice()[filled]);
-        add_columns(1.0, columns, a.nrows(), x, out.as_mut_slice());
-    }
-}
-
-/// `xᵀ A x` of a symmetric matrix; entries of zero in `x` (nodes out of contact) cost little.
+/// `xᵀ A x`.
 pub(super) fn quadratic_form(a: &DMatrix<f64>, x: &DVector<f64>) -> f64 {
-    vectorised::quadratic_form(a.as_slice(), x.as_slice())
-}
-
-/// Cuts as many values off both ends, or adds as many zeros to them, as give `len` values.
-pub fn resize_about_middle(values: &mut DVector<f64>, len: usize) {
-    let (old, shift) = (values.len() as isize, (values.len() as isize - len as isize) / 2);
-    let at = |i: usize| values.get((i as isize + shift) as usize).copied().filter(|_| i as isize + shift < old);
-    *values = DVector::from_fn(len, |i, _| at(i).unwrap_or(0.0));
+    let columns = a.as_slice().chunks_exact(a.nrows().max(1));
+    columns.zip(x.as_slice()).map(|(column, factor)| factor * dot(column, x.as_slice())).sum()
 }
 
 /// Gives a buffer its length; allocates at the first use only.

@@ -3,16 +3,18 @@
 //! Close to a load every body answers like a half-plane. A contact solver that knows the half-plane in closed form
 //! needs of the body only the difference, which varies over the size of the body, and therefore only a polynomial of
 //! it: its ports are the displacements at a few points of the contact zone. The modes, or the finite elements, are those
-//! of the body with all its surface nodes. Derivation: `docs/theory/patch-contact.md`.
+//! of the body with all its surface nodes. Derivation: `docs/theory/kernel-correction.md`.
 
 use super::reduction::{ReducedBasis, scale_columns};
-use super::remainder::{NEAR, from_components};
 use crate::analytic::HalfPlane;
 use crate::fem::graded::GUARDS;
 pub use crate::linalg::POINTS;
 use crate::linalg::dense::symmetrise;
 use crate::linalg::{Lagrange, LinalgError};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// Nodes within which the compliance of finite elements is not yet that of the elastic body.
+const NEAR: usize = 8;
 
 /// Points of a polynomial on a zone of surface nodes, and what the nodes tell of it.
 pub(super) struct SmoothPorts {
@@ -55,7 +57,8 @@ impl SmoothPorts {
     /// Compliance of the points, of a body whose nodes have the static `compliance`, less that of a half-plane: the body
     /// lies above its surface (`side` 1) or below it (−1) [m/(N/m)].
     pub fn remainder(&self, compliance: &DMatrix<f64>, half_plane: HalfPlane, side: f64) -> DMatrix<f64> {
-        from_components(POINTS, |(c, d)| {
+        let mut whole = DMatrix::zeros(2 * POINTS, 2 * POINTS);
+        for (c, d) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             let rest = DMatrix::from_fn(self.x.len(), self.x.len(), |i, j| match i.abs_diff(j) < self.near {
                 true => 0.0,
                 false => {
@@ -65,8 +68,11 @@ impl SmoothPorts {
             });
             let known = &self.values * rest * self.values.transpose();
             let fitted = self.normal.solve(&DVector::from_column_slice(known.as_slice()));
-            DMatrix::from_column_slice(POINTS, POINTS, fitted.as_slice())
-        })
+            for (at, value) in fitted.iter().enumerate() {
+                whole[(2 * (at % POINTS) + c, 2 * (at / POINTS) + d)] = *value;
+            }
+        }
+        whole
     }
 }
 
@@ -165,10 +171,10 @@ mod tests {
         }
     }
 
-    /// A body of `paper_d`, with modes and with its finite elements: at all surface nodes and at the points.
+    /// A body of `paper_d`: with modes, at all surface nodes and at the points, and with its finite elements at the points.
     struct Twice {
         reduced: [ReducedBody; 2],
-        full: [FullBody; 2],
+        full: FullBody,
         ports: SmoothPorts,
         kernel: f64,
     }
@@ -183,8 +189,8 @@ mod tests {
             let (smooth, turns) = (basis.smooth(&ports, half_plane, side), side > 0.0);
             let reduced = [basis, smooth].map(|basis| ReducedBody::new(basis, turns, damping));
             let full = FullBody::damped(system, turns, damping, 40).unwrap();
-            let smooth = full.smooth(&ports, half_plane, side).unwrap();
-            Twice { reduced, full: [full, smooth], ports, kernel: half_plane.kernel }
+            let full = full.smooth(&ports, half_plane, side).unwrap();
+            Twice { reduced, full, ports, kernel: half_plane.kernel }
         })
     }
 
@@ -196,7 +202,7 @@ mod tests {
     /// Static answers to forces, accelerations and rotation, and those of steps of 1 and .1 ms.
     #[test]
     fn full_and_reduced_bodies_have_the_same_points() {
-        for Twice { reduced: [_, reduced], full: [_, full], kernel, .. } in twice(&BodyDamping::NONE) {
+        for Twice { reduced: [_, reduced], full, kernel, .. } in twice(&BodyDamping::NONE) {
             let bodies = [&reduced as &dyn BodyResponse, &full];
             for (a0, bound) in [(0.0, 1e-8), (1.5e3, 1e-3), (1.5e4, 5e-2)] {
                 let [r, f] = bodies.map(|body| body.operator(a0).unwrap());
@@ -216,7 +222,7 @@ mod tests {
 
     #[test]
     fn forces_at_the_points_store_the_energy_that_their_compliance_gives() {
-        for Twice { reduced: [_, reduced], full: [_, full], .. } in twice(&BodyDamping::NONE) {
+        for Twice { reduced: [_, reduced], full, .. } in twice(&BodyDamping::NONE) {
             for body in [&reduced as &dyn BodyResponse, &full] {
                 let op = body.operator(0.0).unwrap();
                 let forces = DVector::from_fn(2 * POINTS, |i, _| ((i * 37) % 11) as f64 - 5.0);
@@ -270,7 +276,7 @@ mod tests {
     #[test]
     fn bodies_damped_with_their_stiffness_move_alike_with_all_nodes_and_points() {
         let damping = BodyDamping { ratios: [3e-2, 2e-2, 5e-2, 1e-2], mass: 30.0, stiffness: 2e-6 };
-        for Twice { reduced: [nodes, reduced], full: [_, full], ports, .. } in twice(&damping) {
+        for Twice { reduced: [nodes, reduced], full, ports, .. } in twice(&damping) {
             let [at_nodes, modal, elements] =
                 [(&nodes as &dyn BodyResponse, false), (&reduced, true), (&full, true)].map(|(b, p)| run(b, &ports, p));
             // Largest difference over the largest value.

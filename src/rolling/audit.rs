@@ -80,9 +80,8 @@ pub fn advance(model: &RollingModel, td: &TimeDerivative, state: &State, next: &
 /// load, and hot layers that swell and pull more than before move the surfaces under the contact.
 pub fn expand(before: &State, state: &mut State) {
     let growth = (state.growth() - before.growth()) * state.resultant().height;
-    let of_line = |(old, new): (&Line, &Line)| {
-        new.layout.share * (swelling_work(old, new) + new.contact.traction.pull_work)
-    };
+    let of_line =
+        |(old, new): (&Line, &Line)| new.layout.share * (swelling_work(old, new) + new.contact.traction.pull_work);
     let layers: f64 = before.lines.iter().zip(&state.lines).map(of_line).sum();
     state.audit.thermal_work += growth + layers;
 }

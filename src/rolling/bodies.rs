@@ -24,8 +24,6 @@ pub struct Bodies {
 
 /// Answers of both bodies for one step size.
 pub struct Operators {
-    /// Weight of the new value in the time formula [1/s].
-    pub a0: f64,
     /// Of the wheel.
     pub wheel: StepOperator,
     /// Of the rail on its support.
@@ -81,8 +79,8 @@ impl Bodies {
         let kernel = self.apart.as_ref()?;
         // A constant is the same at all points, and the polynomials of a force add up to one.
         let constant = |i: usize, j: usize| if i % 2 == j % 2 { kernel.along(i % 2).displacement(0.0) } else { 0.0 };
-        let [wheel, rail] =
-            surfaces.map(|surface| DMatrix::from_fn(surface.nrows(), surface.ncols(), |i, j| surface[(i, j)] - constant(i, j)));
+        let [wheel, rail] = surfaces
+            .map(|surface| DMatrix::from_fn(surface.nrows(), surface.ncols(), |i, j| surface[(i, j)] - constant(i, j)));
         let sum = &wheel + &rail;
         Some(([wheel, rail], sum))
     }
@@ -108,7 +106,7 @@ impl Bodies {
             let lift = self.apart.as_ref().map_or(0.0, |LineKernel { tangential, normal, .. }| {
                 normal.factor * normal.reach - tangential.factor * tangential.reach
             });
-            kept.keep(a0, Arc::new(Operators { a0, wheel, rail, base, relative, shared, lift }));
+            kept.keep(a0, Arc::new(Operators { wheel, rail, base, relative, shared, lift }));
         }
         Ok(kept.present().clone())
     }

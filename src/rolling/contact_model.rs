@@ -307,8 +307,7 @@ impl LayoutsOfLoad for Following<'_> {
         let ContactModel { patch, width, .. } = self.model;
         let next = patch.load_of(width * load);
         let missed = missed(self.now.get(), next);
-        let mut lines =
-            (missed > SETTLED_LOAD && missed < LARGEST_CHANGE).then(|| patch.layouts(next, true))??;
+        let mut lines = (missed > SETTLED_LOAD && missed < LARGEST_CHANGE).then(|| patch.layouts(next, true))??;
         lines.iter_mut().zip(self.layouts).for_each(|(line, first)| line.gap -= first.gap);
         self.now.set(next);
         Some(lines)

@@ -77,7 +77,8 @@ impl RollingModel {
 
     /// Builds the model on given bodies with given surfaces, with contact on the nodes that the configuration asks for.
     pub fn new(config: Config, bodies: Pair, surfaces: Surfaces) -> Result<Self, ModelError> {
-        let grid = ContactGrid::new(bodies.surface_x.clone(), bodies.spacing, bodies.candidates.start).under(bodies.reach);
+        let grid =
+            ContactGrid::new(bodies.surface_x.clone(), bodies.spacing, bodies.candidates.start).under(bodies.reach);
         let points = Self::patch_reach(&config, &bodies, &surfaces).map(SeriesSolver::new);
         let solver: Box<dyn ContactSolver> = match points {
             Some(points) if config.solver.contact.requires_patch() => Box::new(points),

@@ -2,9 +2,7 @@
 
 use super::line::Line;
 use crate::config::{Config, ContactShape, PatchRows, RowsError};
-use crate::contact::{
-    HalfSpace, LineKernel, LineLayout, Logarithm, PatchFlexibility, PatchLayout, PatchMaterial,
-};
+use crate::contact::{HalfSpace, LineKernel, LineLayout, Logarithm, PatchFlexibility, PatchLayout, PatchMaterial};
 use crate::material::Isotropic;
 use crate::surface;
 use std::sync::Arc;

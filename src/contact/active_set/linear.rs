@@ -29,16 +29,16 @@ pub(super) struct LinearSolver {
     system: DenseSystem,
 }
 
-/// Places of the unknowns of the small system: forces on the ports, moments and rim angle of every line, motions.
+/// Numbering of the unknowns of the small system: forces on the ports, moments and rim angle of every line, motions.
 #[derive(Clone, Copy)]
-struct Places {
+struct Numbering {
     lines: usize,
     /// Moments of a line.
     moments: usize,
     motions: usize,
 }
 
-impl Places {
+impl Numbering {
     fn moment(self, line: usize, k: usize) -> usize {
         ON_PORTS + line * self.moments + k
     }
@@ -61,7 +61,7 @@ struct Small<'a, 'b> {
     lines: &'a [ContactLine<'b>],
     axes: &'a Axes<'a>,
     sought: &'a [Axis],
-    places: Places,
+    places: Numbering,
     /// Coefficients of the slip that every line feels by the moments of every line, by the one that feels, by the moments.
     between: Vec<[[f64; POINTS]; POINTS]>,
 }
@@ -166,9 +166,9 @@ impl LinearSolver {
 }
 
 /// An equation of the small system and its constant.
-type Row<'a> = (&'a mut [f64], &'a mut f64);
+type SmallRow<'a> = (&'a mut [f64], &'a mut f64);
 
-fn row<'a>(rows: &'a mut [f64], constants: &'a mut [f64], at: usize) -> Row<'a> {
+fn row<'a>(rows: &'a mut [f64], constants: &'a mut [f64], at: usize) -> SmallRow<'a> {
     let size = constants.len();
     (&mut rows[at * size..][..size], &mut constants[at])
 }
@@ -176,14 +176,14 @@ fn row<'a>(rows: &'a mut [f64], constants: &'a mut [f64], at: usize) -> Row<'a> 
 impl<'a, 'b> Small<'a, 'b> {
     fn new(lines: &'a [ContactLine<'b>], axes: &'a Axes<'a>, sought: &'a [Axis]) -> Self {
         let felt = lines.iter().all(|line| line.problem.patch.is_some());
-        let places = Places { lines: lines.len(), moments: if felt { POINTS } else { 0 }, motions: sought.len() };
+        let places = Numbering { lines: lines.len(), moments: if felt { POINTS } else { 0 }, motions: sought.len() };
         let pairs = (0..lines.len()).flat_map(|at| (0..lines.len()).map(move |by| (at, by)));
         let between = pairs.filter_map(|(at, by)| lines[at].slip_by_moments(by)).collect();
         Self { lines, axes, sought, places, between }
     }
 
     /// Adds `factor` times an affine function of what line `k` feels to an equation.
-    fn add(&self, k: usize, of: &Felt, factor: f64, (row, constant): Row) {
+    fn add(&self, k: usize, of: &Felt, factor: f64, (row, constant): SmallRow) {
         let (line, places) = (&self.lines[k], self.places);
         let bodies = &line.problem.bodies;
         *constant += factor * of[KNOWN];
@@ -213,7 +213,7 @@ impl<'a, 'b> Small<'a, 'b> {
     }
 
     /// Adds what the rim angle of line `k` has by bodies and motions to its equation.
-    fn add_angle(&self, k: usize, (row, constant): Row) {
+    fn add_angle(&self, k: usize, (row, constant): SmallRow) {
         let line = &self.lines[k];
         let rim = &line.iterate.rim;
         row[self.places.angle(k)] += 1.0;
@@ -227,7 +227,7 @@ impl<'a, 'b> Small<'a, 'b> {
     }
 
     /// Adds the balance of a sought motion, or rest where a brake holds it.
-    fn add_balance(&self, axis: Axis, own: &[OwnForces], (row, constant): Row) {
+    fn add_balance(&self, axis: Axis, own: &[OwnForces], (row, constant): SmallRow) {
         let balance = self.axes.row(axis, self.lines);
         *constant += balance.constant + balance.motions.dot(self.lines[0].traction.rigid);
         row[..ON_PORTS].iter_mut().zip(balance.ports).for_each(|(value, by)| *value += by);
@@ -243,7 +243,7 @@ impl<'a, 'b> Small<'a, 'b> {
         }
     }
 
-    /// What line `k` feels in a solution.
+    /// Numbers that line `k` feels in a solution.
     fn felt(&self, k: usize, solution: &[f64]) -> Felt {
         let (line, places, mut felt) = (&self.lines[k], self.places, [0.0; _]);
         let (ports, motions, angle) = (&solution[..ON_PORTS], &solution[places.motion(0)..], solution[places.angle(k)]);

@@ -12,7 +12,7 @@ pub struct HotLayers {
     pub swelling: [Vec<f64>; 2],
     /// Pull at the candidates [N/m]; empty without any.
     pub pull: [Vec<f64>; 2],
-    /// The same on the ports of the bodies [N/m].
+    /// Pull on the ports of the bodies [N/m].
     pub on_ports: [DVector<f64>; 2],
     /// Displacement of all nodes by the membrane forces \[m]; empty without any.
     pub membrane: [DVector<f64>; 2],

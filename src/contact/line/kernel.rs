@@ -2,9 +2,7 @@
 //! edge-consistent slip rows belong (see [`super::streamline`]).
 
 use crate::analytic::digamma;
-use crate::contact::kernel::{LineKernel, Logarithm};
-use crate::linalg::vectorised::quadratic_form;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 /// Logarithms of the distances of `nodes` over 1 m, with their signs reversed \[1]; `spacing` is the distance of the
 /// nodes in the middle \[m]. At neighbouring nodes their differences are those of the discrete kernel `1/(n + ½)`, so that
@@ -26,44 +24,20 @@ pub fn logarithms(nodes: &[f64], spacing: f64) -> DMatrix<f64> {
     })
 }
 
-/// Compliance of the surface of one body by the flexibility that a line has for itself, per unit nodal force, x and y
-/// of every node [m/(N/m)], from the [`logarithms`] of their distances.
-pub fn line_compliance(kernel: &LineKernel, logarithms: &DMatrix<f64>) -> DMatrix<f64> {
-    let n = logarithms.nrows();
-    DMatrix::from_fn(2 * n, 2 * n, |i, j| match i % 2 == j % 2 {
-        true => kernel.along(i % 2).displacement(logarithms[(i / 2, j / 2)]),
-        false => 0.0,
-    })
-}
-
-/// Elastic energy of the flexibility that a line has for itself, in one body, under forces at all ports [J/m].
-pub fn line_energy(kernel: &LineKernel, logarithms: &DMatrix<f64>, forces: &DVector<f64>) -> f64 {
-    let of_component = |component: usize| {
-        let forces: Vec<f64> = forces.iter().skip(component).step_by(2).copied().collect();
-        let (Logarithm { factor, reach }, sum) = (kernel.along(component), forces.iter().sum::<f64>());
-        0.5 * factor * (reach * sum * sum + quadratic_form(logarithms.as_slice(), &forces))
-    };
-    of_component(0) + of_component(1)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::kernel::Logarithm;
 
     #[test]
     fn a_line_is_displaced_as_the_half_plane_far_from_its_force_and_by_the_discrete_kernel_beside_it() {
-        let along = |factor: f64| Logarithm { factor, reach: 0.03_f64.ln() };
-        let kernel =
-            LineKernel { tangential: along(2.0), normal: along(1.0), lateral: Logarithm::default(), coupling: 0.0 };
+        let along = Logarithm { factor: 2.0, reach: 0.03_f64.ln() };
         let h = 1e-4;
         let nodes: Vec<f64> = (0..200).map(|i| h * f64::from(i)).collect();
-        let matrix = line_compliance(&kernel, &logarithms(&nodes, h));
-        for (component, factor) in [1.0, 2.0].into_iter().enumerate() {
-            let at = |n: usize| factor * matrix[(2 * n + component, component)];
-            assert!((at(0) - at(1) - 4.0).abs() < 1e-12 && (at(3) - at(4) - 2.0 / 3.5).abs() < 1e-12);
-            assert!((at(150) + 2.0 * (0.015f64 / 0.03).ln()).abs() < 1e-5);
-            assert_eq!(matrix[(2 + component, 1 - component)], 0.0);
-        }
+        let logarithms = logarithms(&nodes, h);
+        let at = |n: usize| along.displacement(logarithms[(n, 0)]);
+        assert!((at(0) - at(1) - 4.0).abs() < 1e-12 && (at(3) - at(4) - 2.0 / 3.5).abs() < 1e-12);
+        assert!((at(150) + 2.0 * (0.015f64 / 0.03).ln()).abs() < 1e-5);
     }
 
     /// A constant pressure on nodes that are five times as far apart at the ends as in the middle, against its integral
@@ -72,24 +46,23 @@ mod tests {
     fn nodes_of_growing_distance_are_displaced_as_the_half_plane_under_a_pressure() {
         let (h, reach) = (1e-4, 0.03_f64);
         let along = Logarithm { factor: 1.0, reach: reach.ln() };
-        let kernel = LineKernel { tangential: along, normal: along, lateral: Logarithm::default(), coupling: 0.0 };
         let mut half = vec![0.0];
         for k in 0..90 {
             let last = half[half.len() - 1];
             half.push(last + h * (1.0 + 0.1 * f64::from((k - 40).max(0))).min(5.0));
         }
         let nodes: Vec<f64> = half[1..].iter().rev().map(|x| -x).chain(half.iter().copied()).collect();
-        let matrix = line_compliance(&kernel, &logarithms(&nodes, h));
+        let logarithms = logarithms(&nodes, h);
         let inner = 1..nodes.len() - 1;
         let [low, high] = [0, nodes.len() - 2].map(|i| 0.5 * (nodes[i] + nodes[i + 1]));
         let part = |s: f64| if s == 0.0 { 0.0 } else { s * (1.0 - (s.abs() / reach).ln()) };
         let mut worst = 0.0_f64;
         for i in inner.clone() {
-            let by = |j: usize| 0.5 * (nodes[j + 1] - nodes[j - 1]) * matrix[(2 * i, 2 * j)];
+            let by = |j: usize| 0.5 * (nodes[j + 1] - nodes[j - 1]) * along.displacement(logarithms[(i, j)]);
             let (found, expected) = (inner.clone().map(by).sum::<f64>(), part(high - nodes[i]) - part(low - nodes[i]));
             worst = worst.max((found / expected - 1.0).abs());
         }
         assert!(worst < 3e-3, "{worst}");
-        assert_eq!(matrix, matrix.transpose());
+        assert_eq!(logarithms, logarithms.transpose());
     }
 }

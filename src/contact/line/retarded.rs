@@ -99,7 +99,7 @@ impl Retarded {
     }
 }
 
-/// The same of a body's own flexibility under `forces` on its ports.
+/// Force of a body's own flexibility likewise, under `forces` on its ports.
 fn of_body(grid: &ContactGrid, layer: &RetardedSurface, forces: &DVector<f64>, turning: f64) -> f64 {
     let elastic = layer.share * forces + layer.known;
     let (ahead, moved) = (forces - &elastic, layer.flexibility * &elastic);

@@ -14,7 +14,7 @@ use crate::linalg::POINTS;
 /// Least force by which balances are judged, over the nominal load \[1]: lines may carry nothing.
 const LEAST_FRICTION: f64 = 1e-3;
 
-/// What a line feels of bodies and motions, as polynomials of the place over its half-length.
+/// Slips of a line by bodies and motions, as polynomials of the place over its half-length.
 struct SmoothSlips {
     half_length: f64,
     /// Slips along by unit forces on the ports along [m/s/(N/m)].
