@@ -134,7 +134,8 @@ fn on_nodes(mut config: Config) -> Config {
 fn derivatives_in_divided_steps_are_those_of_the_repeated_step_while_the_rail_warms() {
     for name in ["railway", "railway_ellipse"] {
         let [pairs, kinks] = agree(shipped(name));
-        assert!(pairs > 2000 && kinks == 0);
+        // A pair at a kink of the repeated step is that of one side.
+        assert!(pairs > 2000 && kinks <= 1);
     }
 }
 

@@ -143,7 +143,7 @@ fn creepage_under_a_held_force_develops_from_a_shift_to_rolling_as_by_contact() 
             held.series
         );
         assert!(worst < tolerances[0] && rms < tolerances[1] && held.series.is_some() == series);
-        assert!(lines < 7 || settled < 0.009 && crept < 0.045);
+        assert!(lines < 7 || settled < 0.0095 && crept < 0.045);
     }
 }
 

@@ -14,6 +14,7 @@ use wheelrail::contact::{
     AxisDrive, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, OneLine, SolvedFriction,
     SolverState, Traction, Yielding,
 };
+use wheelrail::linalg::Lagrange;
 use wheelrail::material::Isotropic;
 use wheelrail::mechanics::{Basis, Pair, bodies};
 use wheelrail::piecewise::{Interval, Piecewise};
@@ -22,33 +23,44 @@ use wheelrail::rolling::{Inputs, RollingModel, Rotation, State, Translation, Wor
 use wheelrail::simulation::Outputs;
 use wheelrail::surface::Surfaces;
 
+/// Displacement components at the points of the bodies.
+const PORTS: usize = 10;
 /// Points of the reported profiles.
 const PROFILE: usize = 401;
 
-/// Line contact of a cylinder on a plane with the pressure of Hertz, spread over the surface nodes.
+/// Line contact of a cylinder on a plane with the pressure of Hertz on half-planes, of which the bodies feel its moments.
 struct Hertz {
-    /// Positions of the surface nodes [m], two ports each.
-    x: Vec<f64>,
+    /// Polynomials through whose points the bodies see it, two ports each.
+    points: Lagrange,
     /// Contact modulus [Pa].
     modulus: f64,
     /// Distance and angle of the last problem.
     place: Arc<Mutex<[f64; 2]>>,
 }
 
+/// Parts of the pressure by which its moments are taken.
+const PARTS: usize = 2000;
+
 impl Hertz {
-    /// Forces on the ports under a line load [N/m]: the Hertzian pressure integrated over the cell of every node.
+    /// Forces on the ports under a line load [N/m]: moments of the Hertzian pressure with the polynomials.
     fn forces(&self, load: f64, radius: f64) -> DVector<f64> {
-        let (a, h) = (hertz_half_width(load, radius, self.modulus), self.x[1] - self.x[0]);
-        // Share of the load left of x.
-        let share = |x: f64| {
-            let s = (x / a).clamp(-1.0, 1.0);
-            0.5 + (s * (1.0 - s * s).sqrt() + s.asin()) / PI
-        };
-        let mut forces = DVector::zeros(2 * self.x.len());
-        for (i, x) in self.x.iter().enumerate() {
-            forces[2 * i + 1] = load * (share(x + 0.5 * h) - share(x - 0.5 * h));
+        let a = hertz_half_width(load, radius, self.modulus);
+        let mut forces = DVector::zeros(PORTS);
+        for part in 0..PARTS {
+            // Equal angles of the ellipse: `p dx = 2P/π sin² φ dφ`.
+            let angle = PI * (part as f64 + 0.5) / PARTS as f64;
+            let force = 2.0 * load / PARTS as f64 * angle.sin().powi(2);
+            for (k, value) in self.points.values(a * angle.cos()).into_iter().enumerate() {
+                forces[2 * k + 1] += force * value;
+            }
         }
         forces
+    }
+
+    /// Approach of the half-planes of both bodies below the middle of the pressure [m], whose displacement ends at 1 m.
+    fn pressed(&self, load: f64, radius: f64) -> f64 {
+        let a = hertz_half_width(load, radius, self.modulus);
+        2.0 * load / (PI * self.modulus) * ((2.0 / a).ln() + 0.5)
     }
 
     /// Displacements of both surfaces under forces and known motions.
@@ -61,10 +73,11 @@ impl Hertz {
         [wheel, bodies.free[1] - bodies.shared.compliance[1] * forces]
     }
 
-    /// Distance of the surfaces below the wheel centre [m]; zero in a solution.
-    fn gap(&self, problem: &OneLine, surfaces: &[DVector<f64>; 2], height: f64) -> f64 {
-        let port = self.x.len() / 2 * 2 + 1;
-        height + problem.line.surfaces.gap(0.0, &problem.line.placement) + surfaces[0][port] - surfaces[1][port]
+    /// Distance of the surfaces below the wheel centre under a load [N/m] \[m]; zero in a solution.
+    fn gap(&self, problem: &OneLine, surfaces: &[DVector<f64>; 2], (load, height): (f64, f64)) -> f64 {
+        let port = PORTS / 4 * 2 + 1;
+        let pressed = self.pressed(load, problem.line.radius());
+        height + problem.line.surfaces.gap(0.0, &problem.line.placement) + surfaces[0][port] - surfaces[1][port] + pressed
     }
 
     /// Unbalance of a free axis [N/m, N].
@@ -103,7 +116,7 @@ impl Hertz {
             if problem.rigid.height.target().is_none() {
                 let touch = |height: f64| {
                     let rigid = PerAxis { height, ..rigid };
-                    self.gap(problem, &self.surfaces(problem, &forces, &rigid), height)
+                    self.gap(problem, &self.surfaces(problem, &forces, &rigid), (load, height))
                 };
                 let (at, slope) = (touch(rigid.height), touch(rigid.height + 1e-6) - touch(rigid.height));
                 rigid.height -= at * 1e-6 / slope;
@@ -115,10 +128,7 @@ impl Hertz {
 
 impl ContactSolver for Hertz {
     fn touching(&self, _half_width: f64) -> ContactState {
-        let ports = DVector::zeros(2 * self.x.len());
-        let [loads, surface] = [(); 2].map(|()| [ports.clone(), ports.clone()]);
-        let traction = Traction { port_forces: ports, loads, surface, ..Traction::default() };
-        ContactState { traction, ..ContactState::default() }
+        ContactState { traction: Traction::without_forces(), ..ContactState::default() }
     }
 
     fn solve(
@@ -141,7 +151,7 @@ impl ContactSolver for Hertz {
                     self.unbalance(problem, Axis::Height, &forces, &rigid) - load
                 }
                 AxisDrive::Prescribed { target } => {
-                    self.gap(problem, &self.surfaces(problem, &forces, &rigid), target) * nominal_load * 1e4
+                    self.gap(problem, &self.surfaces(problem, &forces, &rigid), (load, target)) * nominal_load * 1e4
                 }
             }
         };
@@ -199,7 +209,7 @@ impl ContactSolver for Hertz {
     }
 
     fn fits(&self, state: &ContactState) -> bool {
-        state.solver == SolverState::Stateless && state.traction.port_forces.len() == 2 * self.x.len()
+        state.solver == SolverState::Stateless && state.traction.fits()
     }
 }
 
@@ -221,7 +231,7 @@ fn models_with_place() -> ([RollingModel; 2], Arc<Mutex<[f64; 2]>>) {
     let (toys, grids) = (pair(&config), pair(&config));
     let place = Arc::default();
     let toy = Hertz {
-        x: toys.surface_x.clone(),
+        points: Lagrange::new(toys.reach),
         modulus: Isotropic::from(&config.material).contact_modulus(),
         place: Arc::clone(&place),
     };
@@ -279,7 +289,6 @@ fn stationary_contact_of_the_second_solver_is_that_of_hertz() {
     assert!((ours.contact_pressure_max / hertz_peak_pressure(line_load, a) - 1.0).abs() < 1e-9);
     assert_eq!((ours.contact_force_x, ours.friction_power, ours.contact_stick_fraction), (0.0, 0.0, 0.0));
     println!("approach {:.4e} m, on the grid {:.4e} m", ours.contact_approach, theirs.contact_approach);
-    // The compliance of the mesh below its nodes is what the grid corrects and the toy does not.
     assert!((ours.contact_approach / theirs.contact_approach - 1.0).abs() < 0.02);
     assert!((ours.contact_half_width / theirs.contact_half_width - 1.0).abs() < 5e-3);
 }

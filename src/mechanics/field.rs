@@ -3,10 +3,12 @@
 use super::ale::Stream;
 use super::elasticity::Lame;
 use super::response::BodyState;
-use super::{MechanicsError, rail_mesh, wheel_mesh};
-use crate::config::{Config, Material};
+use super::smooth::SmoothPorts;
+use super::{BodySystem, MechanicsError, contact_zone, rail_mesh, rail_system, wheel_mesh, wheel_system};
+use crate::config::Config;
 use crate::fem::{DofMap, Mesh, element};
-use nalgebra::{Matrix3x4, Matrix4, Matrix4x3, RowVector3};
+use crate::linalg::Cholesky;
+use nalgebra::{DVector, Matrix3x4, Matrix4, Matrix4x3, RowVector3};
 
 /// Plane-strain stress \[Pa].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,33 +46,76 @@ pub struct BodyField {
     pub stress: Vec<Stress>,
 }
 
-/// Fields of the wheel that turns with `omega` [rad/s]; `None` if the state is not one of the full response.
-pub fn wheel_field(config: &Config, state: &BodyState, omega: f64) -> Result<Option<BodyField>, MechanicsError> {
-    BodyField::recover(wheel_mesh(config)?, &config.material, Stream::Rotation, state, omega)
+/// Fields of the wheel that turns with `omega` [rad/s] under `loads`; `None` if the state is not one of the full response.
+pub fn wheel_field(
+    config: &Config,
+    state: &BodyState,
+    omega: f64,
+    loads: SurfaceLoads,
+) -> Result<Option<BodyField>, MechanicsError> {
+    let body = (wheel_mesh(config)?, wheel_system as fn(&Config) -> _);
+    BodyField::recover(config, body, Stream::Rotation, (state, omega), loads)
 }
 
 /// Fields of the rail under a wheel that travels with `velocity` [m/s]; `None` as for the wheel.
-pub fn rail_field(config: &Config, state: &BodyState, velocity: f64) -> Result<Option<BodyField>, MechanicsError> {
-    BodyField::recover(rail_mesh(config)?, &config.material, Stream::Translation, state, velocity)
+pub fn rail_field(
+    config: &Config,
+    state: &BodyState,
+    velocity: f64,
+    loads: SurfaceLoads,
+) -> Result<Option<BodyField>, MechanicsError> {
+    let body = (rail_mesh(config)?, rail_system as fn(&Config) -> _);
+    BodyField::recover(config, body, Stream::Translation, (state, velocity), loads)
 }
+
+/// Loads on the surface of a body: at its nodes, x and y of each, and their moments, which the state of the body has answered
+/// [N/m].
+#[derive(Clone, Copy)]
+pub struct SurfaceLoads<'a> {
+    /// At all nodes.
+    pub nodes: &'a DVector<f64>,
+    /// At the ports.
+    pub ports: &'a DVector<f64>,
+}
+
+impl SurfaceLoads<'_> {
+    /// Displacement of all unknowns of a body by what its state has not answered, at rest \[m]: close to the contact the
+    /// answer to moments is not that to the loads.
+    fn local(&self, config: &Config, system: &BodySystem) -> Result<DVector<f64>, MechanicsError> {
+        let answered = SmoothPorts::new(&contact_zone(config).surface_x())?.components().tr_mul(self.ports);
+        let mut displacement = DVector::zeros(system.unknowns());
+        if self.nodes.is_empty() {
+            return Ok(displacement);
+        }
+        for (&unknown, load) in system.surface.iter().zip((self.nodes - answered).iter()) {
+            displacement[unknown] += load;
+        }
+        Cholesky::new(&system.stiffness)?.solve_in_place(displacement.as_mut_slice());
+        Ok(displacement)
+    }
+}
+
+/// Mesh of a body, and how its finite elements are assembled.
+type MeshedBody = (Mesh, fn(&Config) -> Result<BodySystem, MechanicsError>);
 
 impl BodyField {
     fn recover(
-        mesh: Mesh,
-        material: &Material,
+        config: &Config,
+        (mesh, assemble): MeshedBody,
         stream: Stream,
-        state: &BodyState,
-        speed: f64,
+        (state, speed): (&BodyState, f64),
+        loads: SurfaceLoads,
     ) -> Result<Option<Self>, MechanicsError> {
         let dofs = DofMap::new(&mesh);
         if state.displacement.len() != dofs.len() {
             return Ok(None);
         }
+        let local = loads.local(config, &assemble(config)?)?;
         let nodal = |values: &[f64]| -> Vec<[f64; 2]> {
             let value = |node, component| dofs.unknown(node, component).map_or(0.0, |i| values[i]);
             (0..mesh.nodes.len()).map(|node| [value(node, 0), value(node, 1)]).collect()
         };
-        let displacement = nodal(state.displacement.as_slice());
+        let displacement = nodal((&state.displacement + local).as_slice());
         let mut velocity = nodal(state.velocity.as_slice());
         let gradient = nodal_gradient(&mesh, &displacement)?;
         for ((velocity, position), gradient) in velocity.iter_mut().zip(&mesh.nodes).zip(&gradient) {
@@ -79,10 +124,10 @@ impl BodyField {
                 *v += own + row[0] * flow[0] + row[1] * flow[1];
             }
         }
-        let lame = Lame::from(material);
+        let lame = Lame::from(&config.material);
         let stress = gradient.iter().map(|gradient| {
             let [[xx, xy], [_, yy]] = lame.stress(*gradient);
-            Stress { xx, yy, xy, zz: material.poissons_ratio * (xx + yy) }
+            Stress { xx, yy, xy, zz: config.material.poissons_ratio * (xx + yy) }
         });
         Ok(Some(Self { displacement, velocity, stress: stress.collect(), mesh }))
     }

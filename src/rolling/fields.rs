@@ -5,7 +5,8 @@ use super::model::RollingModel;
 use super::state::State;
 use crate::heat::HeatError;
 use crate::mechanics::MechanicsError;
-use crate::mechanics::field::{rail_field, wheel_field};
+use crate::mechanics::field::{SurfaceLoads, rail_field, wheel_field};
+use nalgebra::DVector;
 
 pub use crate::heat::TemperatureField;
 pub use crate::mechanics::field::{BodyField, Stress};
@@ -39,8 +40,10 @@ pub struct Fields {
 pub fn fields(model: &RollingModel, state: &State) -> Result<Fields, FieldError> {
     let (config, motion) = (&model.config, &state.motion);
     let lift = |nodes: &mut [[f64; 2]]| nodes.iter_mut().for_each(|[_, y]| *y += config.wheel.radius);
-    let mut wheel = wheel_field(config, &state.wheel, motion.omega.now)?.ok_or(FieldError::Reduced)?;
-    let mut rail = rail_field(config, &state.rail, motion.velocity.now)?.ok_or(FieldError::Reduced)?;
+    let (nodes, ports) = ([0, 1].map(|body| nodal_loads(state, body)), [0, 1].map(|body| state.loads(body)));
+    let loads = |body: usize| SurfaceLoads { nodes: &nodes[body], ports: &ports[body] };
+    let mut wheel = wheel_field(config, &state.wheel, motion.omega.now, loads(0))?.ok_or(FieldError::Reduced)?;
+    let mut rail = rail_field(config, &state.rail, motion.velocity.now, loads(1))?.ok_or(FieldError::Reduced)?;
     lift(&mut wheel.mesh.nodes);
     wheel.displacement.iter_mut().for_each(|[_, y]| *y += motion.height.now);
     wheel.velocity.iter_mut().for_each(|[_, y]| *y += motion.height.rate);
@@ -55,6 +58,22 @@ pub fn fields(model: &RollingModel, state: &State) -> Result<Fields, FieldError>
         lift(&mut of_wheel.mesh.nodes);
     }
     Ok(Fields { wheel, rail, temperature })
+}
+
+/// Forces of all lines on the surface nodes of wheel (0) or rail (1), x and y of each, contact forces and the pull of hot
+/// layers [N/m]: contact under the full response is on the nodes of its finite elements.
+fn nodal_loads(state: &State, body: usize) -> DVector<f64> {
+    let sign = if body == 0 { 1.0 } else { -1.0 };
+    let mut sum = DVector::zeros(0);
+    for line in &state.lines {
+        let Some(nodes) = line.contact.solver.grid() else { continue };
+        let mut loads = &nodes.forces * sign;
+        let guards = (loads.len() / 2).saturating_sub(nodes.pull[body].len()) / 2;
+        nodes.pull[body].iter().enumerate().for_each(|(i, pull)| loads[2 * (i + guards)] += pull);
+        loads *= line.layout.share;
+        sum = if sum.is_empty() { loads } else { sum + loads };
+    }
+    sum
 }
 
 /// Absolute temperatures in wheel (about its centre) and rail under the hottest line, with either response; `None` if

@@ -15,7 +15,7 @@ use nalgebra::DVector;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Share of the reach of the smooth displacements that a patch may take when it comes from the grid \[1].
+/// Share of the zone of the points that a patch may take when it comes from the grid \[1].
 const ROOM: f64 = 0.9;
 
 /// Side from which the material arrives: 1 from `+x`.
@@ -182,7 +182,7 @@ fn even(grid: &ContactGrid) -> Range<usize> {
 pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &ContactState) -> Option<ContactState> {
     let (state, traction) = (from.solver.grid()?, &from.traction);
     let ([edges], load) = (traction.edges.as_slice(), traction.resultant.height) else { return None };
-    let reach = ROOM * constants.points.reach;
+    let reach = ROOM * constants.zone;
     if load <= 0.0 || traction.yielding.share > 0.0 || edges.low < -reach || edges.high > reach {
         return None;
     }

@@ -51,6 +51,8 @@ impl Default for LayerTables {
 pub struct Constants {
     /// Points between which their smooth displacements are polynomials.
     pub points: Lagrange,
+    /// Distance from the contact point within which patches lie \[m].
+    pub zone: f64,
     /// Constants of the series.
     pub tables: Tables,
     /// Constants of points, and of points that slip where their tractions stand.
@@ -64,6 +66,7 @@ impl Constants {
     /// Those of smooth displacements that are polynomials through `points`.
     pub fn new(points: Lagrange) -> Self {
         Self {
+            zone: points.reach,
             points,
             tables: Tables::new(),
             of_points: PointTables::new(),

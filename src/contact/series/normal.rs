@@ -35,14 +35,14 @@ impl SeriesLine<'_> {
     /// The gap stays closed where its slope vanishes. As a series in `T_n(t)` the slope without pressure gives the
     /// terms of the pressure one by one, `p_k = A_{k+1}/(2πκ)`; `A_0 = 0` is the condition for the middle of the patch.
     pub fn shape_pressure(&mut self) -> Result<f64, ContactError> {
-        let Constants { tables, points, .. } = self.constants;
+        let Constants { tables, points, zone, .. } = self.constants;
         let radius = self.problem.line.surfaces.radius;
         let gap = points.polynomial(&self.surface.gap());
         let pressure = self.tractions.pressure;
         let (centre, half_width) = (pressure.centre, pressure.half_width);
-        if centre.abs() + half_width >= points.reach {
+        if centre.abs() + half_width >= *zone {
             let load = pressure.total();
-            return Err(ContactError::ZoneExceeded { zone: points.reach, load });
+            return Err(ContactError::ZoneExceeded { zone: *zone, load });
         }
         let slope = |x: f64| x / (radius * radius - x * x).sqrt() + gap.slope(x) - self.rim_angle;
         let places = tables.closed.map(|t| centre + half_width * t);
@@ -80,7 +80,7 @@ impl SeriesLine<'_> {
     fn eased(&self, factor: f64, load: Option<f64>, opened: usize) -> f64 {
         let pressure = &self.tractions.pressure;
         if factor > JUMPS {
-            let room = ROOM * (self.constants.points.reach - pressure.centre.abs()) / pressure.half_width;
+            let room = ROOM * (self.constants.zone - pressure.centre.abs()) / pressure.half_width;
             return factor.min(room.powi(2).max(JUMPS));
         }
         match factor <= 0.0 {

@@ -22,7 +22,7 @@ use std::hash::{Hash, Hasher};
 /// is carried through it. Where all slips nothing is.
 const SHORTEST_WAY: f64 = 1e-3;
 
-/// Largest half-width of a start over the reach of the bodies \[1].
+/// Largest half-width of a start over the zone \[1].
 const LARGEST_START: f64 = 0.9;
 
 /// Contact as series on a single patch.
@@ -32,15 +32,21 @@ pub struct SeriesSolver {
 }
 
 impl SeriesSolver {
-    /// Patches within `reach` \[m] of the contact point on bodies that lack the flexibility that lines have for
-    /// themselves.
+    /// Patches on bodies that lack the flexibility that lines have for themselves and are known up to `reach` \[m] from the
+    /// contact point.
     pub fn new(reach: f64) -> Self {
         Self { constants: Constants::new(Lagrange::new(reach)) }
     }
 
+    /// Patches that lie within a `zone` \[m] about the contact point.
+    pub fn within(mut self, zone: f64) -> Self {
+        self.constants.zone = zone;
+        self
+    }
+
     /// Distance from the contact point within which patches lie \[m].
     pub fn reach(&self) -> f64 {
-        self.constants.points.reach
+        self.constants.zone
     }
 
     /// Constants of all problems.
