@@ -77,7 +77,8 @@ impl Hertz {
     fn gap(&self, problem: &OneLine, surfaces: &[DVector<f64>; 2], (load, height): (f64, f64)) -> f64 {
         let port = PORTS / 4 * 2 + 1;
         let pressed = self.pressed(load, problem.line.radius());
-        height + problem.line.surfaces.gap(0.0, &problem.line.placement) + surfaces[0][port] - surfaces[1][port] + pressed
+        height + problem.line.surfaces.gap(0.0, &problem.line.placement) + surfaces[0][port] - surfaces[1][port]
+            + pressed
     }
 
     /// Unbalance of a free axis [N/m, N].

@@ -61,7 +61,11 @@ impl LineKernel {
 
     /// Elastic energy of the constants of one body under the sums of tangential and normal forces [J/m].
     pub fn energy_of_reach(&self, sums: [f64; 2]) -> f64 {
-        [self.tangential, self.normal].iter().zip(sums).map(|(along, sum)| 0.5 * along.displacement(0.0) * sum * sum).sum()
+        [self.tangential, self.normal]
+            .iter()
+            .zip(sums)
+            .map(|(along, sum)| 0.5 * along.displacement(0.0) * sum * sum)
+            .sum()
     }
 
     /// True if all numbers are finite.

@@ -51,7 +51,7 @@ pub fn wheel_field(
     config: &Config,
     state: &BodyState,
     omega: f64,
-    loads: SurfaceLoads,
+    loads: NodalLoads,
 ) -> Result<Option<BodyField>, MechanicsError> {
     let body = (wheel_mesh(config)?, wheel_system as fn(&Config) -> _);
     BodyField::recover(config, body, Stream::Rotation, (state, omega), loads)
@@ -62,7 +62,7 @@ pub fn rail_field(
     config: &Config,
     state: &BodyState,
     velocity: f64,
-    loads: SurfaceLoads,
+    loads: NodalLoads,
 ) -> Result<Option<BodyField>, MechanicsError> {
     let body = (rail_mesh(config)?, rail_system as fn(&Config) -> _);
     BodyField::recover(config, body, Stream::Translation, (state, velocity), loads)
@@ -71,14 +71,14 @@ pub fn rail_field(
 /// Loads on the surface of a body: at its nodes, x and y of each, and their moments, which the state of the body has answered
 /// [N/m].
 #[derive(Clone, Copy)]
-pub struct SurfaceLoads<'a> {
+pub struct NodalLoads<'a> {
     /// At all nodes.
     pub nodes: &'a DVector<f64>,
     /// At the ports.
     pub ports: &'a DVector<f64>,
 }
 
-impl SurfaceLoads<'_> {
+impl NodalLoads<'_> {
     /// Displacement of all unknowns of a body by what its state has not answered, at rest \[m]: close to the contact the
     /// answer to moments is not that to the loads.
     fn local(&self, config: &Config, system: &BodySystem) -> Result<DVector<f64>, MechanicsError> {
@@ -104,7 +104,7 @@ impl BodyField {
         (mesh, assemble): MeshedBody,
         stream: Stream,
         (state, speed): (&BodyState, f64),
-        loads: SurfaceLoads,
+        loads: NodalLoads,
     ) -> Result<Option<Self>, MechanicsError> {
         let dofs = DofMap::new(&mesh);
         if state.displacement.len() != dofs.len() {

@@ -5,7 +5,7 @@ use super::model::RollingModel;
 use super::state::State;
 use crate::heat::HeatError;
 use crate::mechanics::MechanicsError;
-use crate::mechanics::field::{SurfaceLoads, rail_field, wheel_field};
+use crate::mechanics::field::{NodalLoads, rail_field, wheel_field};
 use nalgebra::DVector;
 
 pub use crate::heat::TemperatureField;
@@ -41,7 +41,7 @@ pub fn fields(model: &RollingModel, state: &State) -> Result<Fields, FieldError>
     let (config, motion) = (&model.config, &state.motion);
     let lift = |nodes: &mut [[f64; 2]]| nodes.iter_mut().for_each(|[_, y]| *y += config.wheel.radius);
     let (nodes, ports) = ([0, 1].map(|body| nodal_loads(state, body)), [0, 1].map(|body| state.loads(body)));
-    let loads = |body: usize| SurfaceLoads { nodes: &nodes[body], ports: &ports[body] };
+    let loads = |body: usize| NodalLoads { nodes: &nodes[body], ports: &ports[body] };
     let mut wheel = wheel_field(config, &state.wheel, motion.omega.now, loads(0))?.ok_or(FieldError::Reduced)?;
     let mut rail = rail_field(config, &state.rail, motion.velocity.now, loads(1))?.ok_or(FieldError::Reduced)?;
     lift(&mut wheel.mesh.nodes);

@@ -79,7 +79,8 @@ impl RollingModel {
     pub fn new(config: Config, bodies: Pair, surfaces: Surfaces) -> Result<Self, ModelError> {
         let grid =
             ContactGrid::new(bodies.surface_x.clone(), bodies.spacing, bodies.candidates.start).under(bodies.reach);
-        let points = Self::patch_reach(&config, &bodies, &surfaces).map(|reach| SeriesSolver::new(reach).within(bodies.zone));
+        let points =
+            Self::patch_reach(&config, &bodies, &surfaces).map(|reach| SeriesSolver::new(reach).within(bodies.zone));
         let solver: Box<dyn ContactSolver> = match points {
             Some(points) if config.solver.contact.requires_patch() => Box::new(points),
             points => Box::new(NodeChoice::new(grid, points)),

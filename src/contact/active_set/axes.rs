@@ -94,8 +94,7 @@ impl<'a> Axes<'a> {
     /// [`pull_of_forces`](ContactLine::pull_of_forces), by its share of the width.
     fn balance(&self, axis: Axis, load: f64, lines: &[ContactLine]) -> Equation {
         let own = &self.rigid[axis];
-        let mut equation =
-            Equation { ports: [0.0; _], motions: PerAxis::default(), constant: own.momentum - load };
+        let mut equation = Equation { ports: [0.0; _], motions: PerAxis::default(), constant: own.momentum - load };
         let Some(first) = lines.first() else { return equation };
         let bodies = &first.problem.bodies;
         equation.ports = std::array::from_fn(|port| bodies.momentum[(axis.number(), port)]);

@@ -10,7 +10,6 @@ use super::unknowns::Unknowns;
 use crate::axes::Axis;
 use crate::contact::error::ContactError;
 use crate::contact::line::contact_line::ContactLine;
-use crate::contact::problem::SurfaceResponse;
 use crate::linalg::{DenseSystem, POINTS};
 
 /// Forces on the ports.
@@ -64,11 +63,16 @@ struct Small<'a, 'b> {
     places: Numbering,
     /// Coefficients of the slip that every line feels by the moments of every line, by the one that feels, by the moments.
     between: Vec<[[f64; POINTS]; POINTS]>,
+    /// Gaps that unit forces on the ports open at the points, those that sought motions open, and the places of the points.
+    by_ports: [[f64; ON_PORTS]; POINTS],
+    by_motions: [[f64; Axis::COUNT]; POINTS],
+    points: [f64; POINTS],
 }
 
 impl LinearSolver {
     /// Solves a linear problem and gives the lines their forces and motions. With `given` tangential forces at the candidates
     /// of every line, pressures alone are sought, and of the motions the height.
+    #[inline(never)]
     pub fn solve(
         &mut self,
         lines: &mut [ContactLine],
@@ -90,42 +94,35 @@ impl LinearSolver {
         let changes = &solution[small.places.motion(0)..];
         for ((own, line), felt) in self.lines.iter().zip(&mut *lines).zip(&felt) {
             line.state.forces.fill(0.0);
-            for (&i, forces) in own.nodes.iter().zip(&own.forces) {
+            own.take(felt, |i, [tangential, normal]| {
                 let at = line.grid.component(i);
-                let [tangential, normal] = forces.map(|force| force.iter().zip(felt).map(|(f, by)| f * by).sum::<f64>());
                 (line.state.forces[at], line.state.forces[at + 1]) = (tangential, normal);
-            }
+            });
         }
         unknowns.move_by(changes, lines, axes);
         Ok(())
     }
 
     /// Writes the small system.
+    #[inline(never)]
     fn write(&mut self, small: &Small) {
         let (size, lines) = (small.places.len(), small.lines);
         self.rows.clear();
         self.rows.resize(size * size, 0.0);
         self.constants.clear();
         self.constants.resize(size, 0.0);
-        for k in 0..ON_PORTS {
+        for k in 0..small.places.angle(0) {
             self.rows[k * size + k] = 1.0;
         }
         for (k, (own, line)) in self.lines.iter().zip(lines).enumerate() {
             let (nodes, grid) = (&own.nodes, line.grid);
-            for (port, factor) in (0..ON_PORTS).map(|port| (port, -line.problem.share)) {
-                let value = |place: usize| grid.values[nodes[place] + grid.guard][port / 2];
-                let sum = match port % 2 {
-                    0 => own.sum(|place| [value(place), 0.0]),
-                    _ => own.sum(|place| [0.0, value(place)]),
-                };
-                small.add(k, &sum, factor, row(&mut self.rows, &mut self.constants, port));
+            let on_points = own.sums(|place| grid.values[nodes[place] + grid.guard]);
+            for (port, sum) in on_points.as_flattened().iter().enumerate() {
+                small.add(k, sum, -line.problem.share, row(&mut self.rows, &mut self.constants, port));
             }
-            for n in 0..small.places.moments {
-                let power = |place: usize| line.problem.patch.map_or(0.0, |patch| patch.powers(grid.x[nodes[place]])[n]);
+            for (n, [moment, _]) in own.moments().filter(|_| small.places.moments > 0).iter().flatten().enumerate() {
                 let at = small.places.moment(k, n);
-                self.rows[at * size + at] = 1.0;
-                let sum = own.sum(|place| [power(place), 0.0]);
-                small.add(k, &sum, -1.0, row(&mut self.rows, &mut self.constants, at));
+                small.add(k, moment, -1.0, row(&mut self.rows, &mut self.constants, at));
             }
             let rim = &line.iterate.rim;
             let own_angle = own.sum(|place| {
@@ -179,30 +176,30 @@ impl<'a, 'b> Small<'a, 'b> {
         let places = Numbering { lines: lines.len(), moments: if felt { POINTS } else { 0 }, motions: sought.len() };
         let pairs = (0..lines.len()).flat_map(|at| (0..lines.len()).map(move |by| (at, by)));
         let between = pairs.filter_map(|(at, by)| lines[at].slip_by_moments(by)).collect();
-        Self { lines, axes, sought, places, between }
+        let (bodies, points) = (&lines[0].problem.bodies, lines[0].grid.points.nodes());
+        let lifts = |axis: Axis, point: usize| {
+            let rigid = if axis == Axis::Height { 1.0 } else { 0.0 };
+            rigid + axes.gain(axis) * bodies.inertial[(2 * point + 1, axis.number())]
+        };
+        let by_ports = |point: usize| std::array::from_fn(|port| bodies.shared.relative[(2 * point + 1, port)]);
+        let by_motions =
+            |point: usize| std::array::from_fn(|number| sought.get(number).map_or(0.0, |axis| lifts(*axis, point)));
+        let (by_ports, by_motions) = (std::array::from_fn(by_ports), std::array::from_fn(by_motions));
+        Self { lines, axes, sought, places, between, by_ports, by_motions, points }
     }
 
     /// Adds `factor` times an affine function of what line `k` feels to an equation.
     fn add(&self, k: usize, of: &Felt, factor: f64, (row, constant): SmallRow) {
-        let (line, places) = (&self.lines[k], self.places);
-        let bodies = &line.problem.bodies;
+        let places = self.places;
         *constant += factor * of[KNOWN];
-        let relative = bodies.shared.relative;
         for (point, opened) in of[OPENED].iter().map(|opened| factor * opened).enumerate() {
-            let at = 2 * point + 1;
-            for (port, value) in row[..ON_PORTS].iter_mut().enumerate() {
-                *value += opened * relative[(at, port)];
-            }
-            row[places.angle(k)] -= opened * line.grid.points.nodes()[point];
-            for (number, &axis) in self.sought.iter().enumerate() {
-                row[places.motion(number)] += opened * self.lifts(bodies, axis, at);
-            }
+            add(opened, &self.by_ports[point], &mut row[..ON_PORTS]);
+            row[places.angle(k)] -= opened * self.points[point];
+            add(opened, &self.by_motions[point], &mut row[places.motion(0)..]);
         }
-        row[..ON_PORTS].iter_mut().zip(&of[PORTS]).for_each(|(value, by)| *value += factor * by);
+        add(factor, &of[PORTS], &mut row[..ON_PORTS]);
         row[places.angle(k)] += factor * of[ANGLE];
-        for (number, by) in of[MOTIONS][..places.motions].iter().enumerate() {
-            row[places.motion(number)] += factor * by;
-        }
+        add(factor, &of[MOTIONS], &mut row[places.motion(0)..]);
         for j in 0..if places.moments > 0 { places.lines } else { 0 } {
             let between = &self.between[k * places.lines + j];
             for (n, by_moment) in between.iter().enumerate() {
@@ -245,29 +242,21 @@ impl<'a, 'b> Small<'a, 'b> {
 
     /// Numbers that line `k` feels in a solution.
     fn felt(&self, k: usize, solution: &[f64]) -> Felt {
-        let (line, places, mut felt) = (&self.lines[k], self.places, [0.0; _]);
+        let (places, mut felt) = (self.places, [0.0; _]);
         let (ports, motions, angle) = (&solution[..ON_PORTS], &solution[places.motion(0)..], solution[places.angle(k)]);
-        let bodies = &line.problem.bodies;
         felt[KNOWN] = 1.0;
         felt[PORTS].copy_from_slice(ports);
         felt[ANGLE] = angle;
         felt[MOTIONS][..motions.len()].copy_from_slice(motions);
-        for (point, x) in line.grid.points.nodes().into_iter().enumerate() {
-            let at = 2 * point + 1;
-            let by_ports = ports.iter().enumerate().map(|(port, force)| bodies.shared.relative[(at, port)] * force);
-            let lifts = self.sought.iter().zip(motions).map(|(&axis, motion)| motion * self.lifts(bodies, axis, at));
-            felt[OPENED.start + point] = by_ports.sum::<f64>() + lifts.sum::<f64>() - x * angle;
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        for (point, x) in self.points.into_iter().enumerate() {
+            let opened = product(&self.by_ports[point], ports) + product(&self.by_motions[point], motions);
+            felt[OPENED.start + point] = opened - x * angle;
         }
         for (moment, value) in solution[places.moment(0, 0)..places.angle(0)].iter().enumerate() {
             let (j, n) = (moment / POINTS, moment % POINTS);
             add(*value, &self.between[k * places.lines + j][n], &mut felt[FELT]);
         }
         felt
-    }
-
-    /// Gap that a motion opens at a normal port, per unit of the motion.
-    fn lifts(&self, bodies: &SurfaceResponse, axis: Axis, port: usize) -> f64 {
-        let rigid = if axis == Axis::Height { 1.0 } else { 0.0 };
-        rigid + self.axes.gain(axis) * bodies.inertial[(port, axis.number())]
     }
 }

@@ -8,10 +8,13 @@ use super::axes::Axes;
 use super::unknowns::LineUnknowns;
 use crate::axes::Axis;
 use crate::contact::flexibility::ByPowers;
+use crate::contact::kernel::Logarithm;
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::rows::BodyRows;
 use crate::linalg::{DenseSystem, POINTS};
+use nalgebra::DMatrix;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Column of the forces that are known.
 pub const KNOWN: usize = 0;
@@ -32,22 +35,45 @@ const PRESSED: usize = OPENED.end.next_multiple_of(4);
 
 /// Affine function of what a line feels, by columns.
 pub type Felt = [f64; COLUMNS];
+/// The columns of pressures alone.
+type Pressed = [f64; PRESSED];
 
 /// Forces of one line.
 #[derive(Default)]
 pub struct OwnForces {
+    /// Factors of the flexibility of closed nodes, which belong to [`Self::kept`], and of the stuck ones.
     pressures: DenseSystem,
     shear: DenseSystem,
-    /// Normal forces at the closed nodes.
-    pressed: Vec<[[f64; PRESSED]; 1]>,
-    /// Tangential forces at the stuck nodes.
-    sheared: Vec<[[f64; COLUMNS]; 1]>,
-    /// Closed nodes, then open ones with given tangential forces, and tangential and normal forces at all of them.
-    pub nodes: Vec<usize>,
-    pub forces: Vec<[Felt; 2]>,
-    /// Places of the stuck nodes among the closed ones, and their equations by unit tangential forces at these.
+    kept: Option<PressureKey>,
+    /// Normal forces at the closed nodes, and the known ones among them.
+    pressed: Vec<[Pressed; 1]>,
+    known: Vec<f64>,
+    /// Tangential over normal forces at the closed nodes where they slip \[1], and places of the stuck ones among them.
+    friction: Vec<f64>,
     stuck: Vec<usize>,
+    /// Tangential forces at the stuck nodes.
+    sheared: Vec<[Felt; 1]>,
+    /// Closed nodes, then open ones with given tangential forces.
+    pub nodes: Vec<usize>,
+    /// Given tangential forces at these [N/m]; empty: there are none.
+    given: Vec<f64>,
+    /// Powers of their places \[1]; empty: the line is in no patch.
+    powers: Vec<ByPowers>,
     row: Vec<f64>,
+}
+
+/// What the factor of the pressures and their answer to what bodies and motions open depend on.
+struct PressureKey {
+    closed: Vec<usize>,
+    along: Logarithm,
+    logarithms: Arc<DMatrix<f64>>,
+}
+
+impl PressureKey {
+    fn fits(&self, line: &ContactLine, closed: &[usize]) -> bool {
+        let same = self.along == line.kernel.normal && Arc::ptr_eq(&self.logarithms, &line.grid.logarithms);
+        same && self.closed == closed
+    }
 }
 
 /// Adds a multiple of an affine function.
@@ -62,43 +88,63 @@ impl OwnForces {
         &mut self,
         line: &ContactLine,
         unknowns: &LineUnknowns,
-        axes: (&Axes, &[Axis]),
+        (axes, sought): (&Axes, &[Axis]),
         given: Option<&[f64]>,
     ) -> bool {
-        let bodies = line.body_rows();
-        self.press(line, unknowns, (axes.0, &bodies)) && {
-            let Self { pressed, nodes, forces, .. } = self;
-            nodes.clone_from(&unknowns.closed);
-            forces.clear();
-            let of_node = |(k, pressed): (usize, &[[f64; PRESSED]; 1])| {
-                let mut forces = [[0.0; COLUMNS]; 2];
-                forces[1][..PRESSED].copy_from_slice(&pressed[0]);
-                match given {
-                    Some(given) => forces[0][KNOWN] = given[unknowns.closed[k]],
-                    None => forces[0] = forces[1].map(|force| unknowns.friction[k] * force),
-                }
-                forces
-            };
-            forces.extend(pressed.iter().enumerate().map(of_node));
-            for (i, force) in given.unwrap_or_default().iter().enumerate() {
-                if *force != 0.0 && !line.state.status[i].is_active() {
-                    let mut felt = [[0.0; COLUMNS]; 2];
-                    felt[0][KNOWN] = *force;
-                    nodes.push(i);
-                    forces.push(felt);
-                }
-            }
-            given.is_some() || unknowns.stuck.is_empty() || self.shear(line, unknowns, axes, &bodies)
+        self.friction.clone_from(&unknowns.friction);
+        self.nodes.clone_from(&unknowns.closed);
+        self.stuck.clear();
+        self.sheared.clear();
+        self.given.clear();
+        if let Some(given) = given {
+            let open = |(i, force): &(usize, &f64)| **force != 0.0 && !line.state.status[*i].is_active();
+            self.nodes.extend(given.iter().enumerate().filter(open).map(|(i, _)| i));
+            self.given.extend(self.nodes.iter().map(|&i| given[i]));
         }
+        self.powers.clear();
+        if let Some(patch) = line.problem.patch {
+            self.powers.extend(self.nodes.iter().map(|&i| patch.powers(line.grid.x[i])));
+        }
+        let bodies = line.body_rows();
+        let pressed = self.press(line, unknowns, (axes, &bodies));
+        pressed && (given.is_some() || unknowns.stuck.is_empty() || self.shear(line, unknowns, (axes, sought), &bodies))
     }
 
     /// Takes the pressures that close the gap.
+    #[inline(never)]
     fn press(&mut self, line: &ContactLine, unknowns: &LineUnknowns, (axes, bodies): (&Axes, &BodyRows)) -> bool {
+        let (closed, grid) = (&unknowns.closed, line.grid);
+        let yields = closed.iter().any(|&i| line.state.yielded[i]);
+        let kept = !yields && self.kept.as_ref().is_some_and(|kept| kept.fits(line, closed));
+        if !kept {
+            self.kept = None;
+            if !self.factorise(line, closed) {
+                return false;
+            }
+        }
+        self.known.clear();
+        for &i in closed {
+            let equation = axes.equation(line.gap_row(i, bodies));
+            let known = -(equation.constant + equation.motions.dot(line.traction.rigid));
+            let yielding = if line.state.yielded[i] { line.creep(i) * line.given.strength.limit[i] } else { 0.0 };
+            self.known.push(known + yielding);
+        }
+        if !kept && !yields {
+            let logarithms = Arc::clone(&grid.logarithms);
+            self.kept = Some(PressureKey { closed: closed.clone(), along: line.kernel.normal, logarithms });
+        }
+        let solved = self.pressures.solve_with(&mut self.known);
+        self.pressed.iter_mut().zip(&self.known).for_each(|([pressed], known)| pressed[KNOWN] = *known);
+        solved
+    }
+
+    /// Takes the factor of the pressures, and how they answer to what bodies and motions open.
+    fn factorise(&mut self, line: &ContactLine, closed: &[usize]) -> bool {
         let Self { pressures, pressed, .. } = self;
-        let (closed, along, grid) = (&unknowns.closed, line.kernel.normal, line.grid);
+        let (along, grid) = (line.kernel.normal, line.grid);
+        let nodes = grid.logarithms.nrows();
         pressures.reset(closed.len());
         pressed.clear();
-        let nodes = grid.logarithms.nrows();
         for (k, &i) in closed.iter().enumerate() {
             let node = i + grid.guard;
             let logarithms = &grid.logarithms.as_slice()[node * nodes..][..nodes];
@@ -106,21 +152,16 @@ impl OwnForces {
             for (value, &j) in row.iter_mut().zip(closed) {
                 *value = 2.0 * along.displacement(logarithms[j + grid.guard]);
             }
-            let equation = axes.equation(line.gap_row(i, bodies));
+            row[k] += if line.state.yielded[i] { line.creep(i) } else { 0.0 };
             let mut sides = [0.0; PRESSED];
-            sides[KNOWN] = -(equation.constant + equation.motions.dot(line.traction.rigid));
             sides[OPENED].iter_mut().zip(&grid.values[node]).for_each(|(side, value)| *side = -value);
-            if line.state.yielded[i] {
-                let creep = line.creep(i);
-                row[k] += creep;
-                sides[KNOWN] += creep * line.given.strength.limit[i];
-            }
             pressed.push([sides]);
         }
         pressures.factorise() && pressures.solve_with_all(pressed)
     }
 
     /// Takes the shear that keeps stuck nodes from slipping.
+    #[inline(never)]
     fn shear(
         &mut self,
         line: &ContactLine,
@@ -128,57 +169,91 @@ impl OwnForces {
         (axes, sought): (&Axes, &[Axis]),
         bodies: &BodyRows,
     ) -> bool {
-        let Self { shear, sheared, forces, stuck, row, .. } = self;
-        let (closed, count) = (&unknowns.closed, unknowns.stuck.len());
-        stuck.clear();
+        let Self { shear, sheared, stuck, row, pressed, friction, powers, .. } = self;
+        let closed = &unknowns.closed;
         stuck.extend(closed.iter().enumerate().filter(|(_, i)| line.state.status[**i].is_stuck()).map(|(k, _)| k));
-        shear.reset(count);
-        sheared.clear();
-        for (r, &i) in unknowns.stuck.iter().enumerate() {
-            let (affine, upwind) = line.slip_row(i, bodies);
+        shear.reset(stuck.len());
+        for (r, &place) in stuck.iter().enumerate() {
+            let (affine, upwind) = line.slip_row(closed[place], bodies);
             let equation = axes.equation(affine);
             let mut sides = [0.0; COLUMNS];
             sides[KNOWN] = -(equation.constant + equation.motions.dot(line.traction.rigid));
             sides[PORTS].iter_mut().zip(&affine.ports).for_each(|(side, by)| *side = -by);
-            let powers = line.problem.patch.map_or(ByPowers::default(), |patch| patch.powers(line.grid.x[i]));
-            sides[FELT].iter_mut().zip(&powers).for_each(|(side, power)| *side = -power);
+            if let Some(powers) = powers.get(place) {
+                sides[FELT].iter_mut().zip(powers).for_each(|(side, power)| *side = -power);
+            }
             sides[ANGLE] = -affine.angle;
             sides[MOTIONS].iter_mut().zip(sought).for_each(|(side, &axis)| *side = -equation.motions[axis]);
-            row.clear();
-            row.resize(closed.len(), 0.0);
-            line.slips_by_own(i, &upwind, closed, |place, slip| row[place] += slip);
-            for (by, slip) in forces.iter().zip(&*row).filter(|(by, _)| by[0][KNOWN] != 0.0 || by[0][OPENED.start] != 0.0) {
-                add(-slip, &by[0], &mut sides);
+            line.slips_by_own(closed[place], &upwind, closed, row);
+            for ((slip, friction), [pressed]) in row.iter().zip(&*friction).zip(&*pressed) {
+                add(-slip * friction, pressed, &mut sides[..PRESSED]);
             }
             for (at, slip) in line.slips_by_pressure(&upwind) {
-                if let Some(place) = closed.iter().position(|&j| line.grid.component(j) == at) {
-                    add(-slip, &forces[place][1], &mut sides);
+                if let Ok(place) = closed.binary_search_by_key(&at, |&j| line.grid.component(j)) {
+                    add(-slip, &pressed[place][0], &mut sides[..PRESSED]);
                 }
             }
             shear.row(r).0.iter_mut().zip(&*stuck).for_each(|(value, &place)| *value = row[place]);
             sheared.push([sides]);
         }
-        if !(shear.factorise() && shear.solve_with_all(sheared)) {
-            return false;
-        }
-        stuck.iter().zip(&*sheared).for_each(|(&place, [sheared])| forces[place][0] = *sheared);
-        true
+        shear.factorise() && shear.solve_with_all(sheared)
     }
 
     /// Sum over the nodes of tangential and normal forces, times factors.
     pub fn sum(&self, factors: impl Fn(usize) -> [f64; 2]) -> Felt {
-        let mut sum = [0.0; COLUMNS];
-        for (k, [tangential, normal]) in self.forces.iter().enumerate() {
-            let [of_tangential, of_normal] = factors(k);
-            if of_tangential != 0.0 {
-                add(of_tangential, tangential, &mut sum);
-            }
-            if of_normal != 0.0 {
-                for (sum, force) in sum[..PRESSED].iter_mut().zip(normal) {
-                    *sum += of_normal * force;
+        let (mut sum, mut of_pressures) = ([0.0; COLUMNS], [0.0; PRESSED]);
+        for (place, (friction, [pressed])) in self.friction.iter().zip(&self.pressed).enumerate() {
+            let [tangential, normal] = factors(place);
+            add(normal + friction * tangential, pressed, &mut of_pressures);
+        }
+        for (&place, [sheared]) in self.stuck.iter().zip(&self.sheared) {
+            add(factors(place)[0], sheared, &mut sum);
+        }
+        add(1.0, &of_pressures, &mut sum[..PRESSED]);
+        sum[KNOWN] += self.given.iter().enumerate().map(|(place, force)| factors(place)[0] * force).sum::<f64>();
+        sum
+    }
+
+    /// Sums over the nodes of tangential and of normal forces, times values there.
+    #[inline(never)]
+    pub fn sums(&self, values: impl Fn(usize) -> [f64; POINTS]) -> [[Felt; 2]; POINTS] {
+        let (mut sums, mut slipping, mut normal) =
+            ([[[0.0; COLUMNS]; 2]; POINTS], [[0.0; PRESSED]; POINTS], [[0.0; PRESSED]; POINTS]);
+        for (place, (friction, [pressed])) in self.friction.iter().zip(&self.pressed).enumerate() {
+            for ((slipping, normal), value) in slipping.iter_mut().zip(&mut normal).zip(values(place)) {
+                add(value, pressed, normal);
+                if *friction != 0.0 {
+                    add(friction * value, pressed, slipping);
                 }
             }
         }
-        sum
+        for (&place, [sheared]) in self.stuck.iter().zip(&self.sheared) {
+            sums.iter_mut().zip(values(place)).for_each(|(sum, value)| add(value, sheared, &mut sum[0]));
+        }
+        for (place, force) in self.given.iter().enumerate() {
+            sums.iter_mut().zip(values(place)).for_each(|(sum, value)| sum[0][KNOWN] += value * force);
+        }
+        for ((sum, slipping), normal) in sums.iter_mut().zip(&slipping).zip(&normal) {
+            add(1.0, slipping, &mut sum[0][..PRESSED]);
+            add(1.0, normal, &mut sum[1][..PRESSED]);
+        }
+        sums
+    }
+
+    /// Moments of the tangential forces with the powers of their places, if the line is in a patch.
+    pub fn moments(&self) -> Option<[[Felt; 2]; POINTS]> {
+        (!self.powers.is_empty()).then(|| self.sums(|place| self.powers[place]))
+    }
+
+    /// Hands tangential and normal forces at all nodes over, given what the line feels.
+    pub fn take(&self, felt: &Felt, mut give: impl FnMut(usize, [f64; 2])) {
+        let value = |of: &[f64]| of.iter().zip(felt).map(|(of, by)| of * by).sum::<f64>();
+        let mut stuck = self.stuck.iter().zip(&self.sheared).peekable();
+        for (place, &i) in self.nodes.iter().enumerate() {
+            let normal = self.pressed.get(place).map_or(0.0, |[pressed]| value(pressed));
+            let sheared = stuck.next_if(|(at, _)| **at == place).map(|(_, [sheared])| value(sheared));
+            let slipping = self.friction.get(place).map_or(0.0, |friction| friction * normal);
+            give(i, [self.given.get(place).copied().or(sheared).unwrap_or(slipping), normal]);
+        }
     }
 }

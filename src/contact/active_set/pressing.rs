@@ -6,8 +6,8 @@ use super::states::{Rules, guess_state, yields};
 use super::unknowns::Unknowns;
 use crate::contact::error::ContactError;
 use crate::contact::line::contact_line::ContactLine;
-use crate::contact::line::state::NodeStatus;
 use crate::contact::line::exchange;
+use crate::contact::line::state::NodeStatus;
 
 /// How far states of nodes are looked for.
 #[derive(Clone, Copy)]

@@ -35,7 +35,11 @@ impl ActiveSetSolver {
 }
 
 /// Makes `found` the start of a search, which begins with its states where they are `resumed`.
-fn begin<'a>(start: &'a ContactState, found: &'a mut ContactState, resumed: bool) -> Result<LineStart<'a>, ContactError> {
+fn begin<'a>(
+    start: &'a ContactState,
+    found: &'a mut ContactState,
+    resumed: bool,
+) -> Result<LineStart<'a>, ContactError> {
     let before = start.solver.grid().ok_or(ContactError::ForeignState)?;
     let ContactState { traction, history, energy, damping, solver, .. } = found;
     if !matches!(solver, SolverState::Grid(_)) {

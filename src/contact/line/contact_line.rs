@@ -1,8 +1,8 @@
 //! One contact line on its way to a solution, and the memory it needs.
 
+use super::alone::{Alone, OwnDisplacement};
 use super::given::KnownPart;
 use super::grid::ContactGrid;
-use super::alone::{Alone, OwnDisplacement};
 use super::history::LineHistory;
 use super::retarded::{PortForces, Retarded};
 use super::rim::{RimAngleRow, RimFrame};

@@ -52,5 +52,4 @@ impl ContactLine<'_> {
         let speeds = [self.problem.time.a0, self.traction.rigid.travel + self.rim_velocity()];
         Some(between.slips(slip_of_field(speeds, patch.half_length)))
     }
-
 }

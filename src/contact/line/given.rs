@@ -40,17 +40,11 @@ pub struct KnownPart {
 
 impl KnownPart {
     /// Finds all of it but what other lines do, under rigid `accelerations` of the wheel that are known.
-    pub fn find(
-        &mut self,
-        grid: &ContactGrid,
-        problem: &LineProblem,
-        state: &GridState,
-        accelerations: PerAxis<f64>,
-    ) {
+    pub fn find(&mut self, grid: &ContactGrid, problem: &LineProblem, state: &GridState, accelerations: PerAxis<f64>) {
         rim::sagitta(grid, problem.surfaces.radius, &mut self.sagitta);
         for body in 0..2 {
             copy(&mut self.ports[body], problem.bodies.free[body]);
-            self.layers.find(grid, problem, body);
+            self.layers.find(grid, problem, body, &state.status);
         }
         for (axis, acceleration) in accelerations.iter() {
             self.ports[0].axpy(acceleration, &problem.bodies.inertial.column(axis.number()), 1.0);

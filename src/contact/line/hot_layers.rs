@@ -2,8 +2,13 @@
 
 use super::alone::{Alone, OwnDisplacement};
 use super::grid::ContactGrid;
+use super::state::NodeStatus;
 use crate::contact::problem::LineProblem;
 use nalgebra::DVector;
+use std::ops::RangeInclusive;
+
+/// Distance from a patch within which layers pull, over its length \[1].
+const BESIDE: f64 = 0.5;
 
 /// Swelling, pull and displacement of the hot layers of wheel and rail.
 #[derive(Default)]
@@ -22,8 +27,10 @@ pub struct HotLayers {
 }
 
 impl HotLayers {
-    /// Finds those of one body, and what the line itself displaces by them.
-    pub fn find(&mut self, grid: &ContactGrid, problem: &LineProblem, body: usize) {
+    /// Finds those of one body, and what the line itself displaces by them. Layers pull where they are heated and cooled: under
+    /// the patch of the `status` before and close to it. Farther away their heat stays as it is, and what differs there is the
+    /// error of wide cells.
+    pub fn find(&mut self, grid: &ContactGrid, problem: &LineProblem, body: usize, status: &[NodeStatus]) {
         let (force, layer) = (problem.membrane[body], problem.placement.swelling[body]);
         let (swelling, membrane, pull) = (&mut self.swelling[body], &mut self.membrane[body], &mut self.pull[body]);
         pull.clear();
@@ -37,8 +44,10 @@ impl HotLayers {
         }
         force.sample(&grid.x, &mut self.force);
         let last = grid.len().saturating_sub(1);
+        let near = near_patch(grid, status);
         for i in 0..=last {
-            pull.push(-0.5 * (self.force[(i + 1).min(last)] - self.force[i.saturating_sub(1)]));
+            let gradient = 0.5 * (self.force[(i + 1).min(last)] - self.force[i.saturating_sub(1)]);
+            pull.push(if near.contains(&grid.x[i]) { -gradient } else { 0.0 });
         }
         self.force.clear();
         self.force.resize(grid.components(), 0.0);
@@ -77,4 +86,15 @@ impl HotLayers {
     pub fn swelling_at(&self, body: usize, i: usize) -> f64 {
         self.swelling[body].get(i).copied().unwrap_or(0.0)
     }
+}
+
+/// Stretch around the closed nodes on which layers pull \[m]; without any, the whole grid.
+fn near_patch(grid: &ContactGrid, status: &[NodeStatus]) -> RangeInclusive<f64> {
+    let closed = |status: &NodeStatus| status.is_active();
+    let ends = status.iter().position(closed).zip(status.iter().rposition(closed));
+    let Some((low, high)) = ends.map(|(first, last)| (grid.x[first], grid.x[last])) else {
+        return f64::NEG_INFINITY..=f64::INFINITY;
+    };
+    let beside = BESIDE * (high - low) + grid.spacing;
+    low - beside..=high + beside
 }

@@ -5,8 +5,8 @@ use super::contact_line::{ContactLine, LineIterate};
 use super::rim::RimFrame;
 use super::streamline::UpwindWeights;
 use super::vectors::copy;
-use crate::contact::kernel::LineKernel;
 use crate::axes::{Axis, PerAxis};
+use crate::contact::kernel::LineKernel;
 
 impl ContactLine<'_> {
     /// Ports of the candidate nodes that an upwind difference at node `i` touches, with the weights of `∂u/∂x` [1/m].

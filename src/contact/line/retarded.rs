@@ -93,7 +93,8 @@ impl Retarded {
         let of_node = |i: usize| {
             let at = grid.component(i);
             let turned = ahead[at + 1] * displacement[at] - ahead[at] * displacement[at + 1];
-            ahead[at] * grid.slope(displacement, i, 0) + ahead[at + 1] * grid.slope(displacement, i, 1) - turning * turned
+            ahead[at] * grid.slope(displacement, i, 0) + ahead[at + 1] * grid.slope(displacement, i, 1)
+                - turning * turned
         };
         (0..grid.len()).map(of_node).sum()
     }

@@ -30,7 +30,7 @@ pub struct UpwindSlip {
     by_angle: f64,
 }
 
-/// What forces on the ports and rigid accelerations do to the points of the bodies, for all rows of a line.
+/// Displacements of the points of the bodies by forces on the ports and rigid accelerations, for all rows of a line.
 pub struct BodyRows {
     /// Displacement of the wheel less that of the rail, along.
     moved: [[f64; BODY_COLUMNS]; POINTS],
@@ -51,7 +51,7 @@ fn combine<const N: usize>(factors: &[f64; POINTS], columns: &[[f64; N]; POINTS]
 }
 
 impl ContactLine<'_> {
-    /// What the bodies do in the rows of this line.
+    /// Part of the bodies in the rows of this line.
     pub fn body_rows(&self) -> BodyRows {
         let (bodies, v, velocity) = (&self.problem.bodies, self.traction.rigid.travel, self.rim_velocity());
         let Influence { compliance: [wheel, rail], relative } = bodies.shared;
@@ -116,28 +116,36 @@ impl ContactLine<'_> {
         UpwindSlip { stencil, stretches, by_angle }
     }
 
-    /// Hands changes of the slip at a candidate with unit tangential forces at the `closed` candidates over, with their places
-    /// among these, as far as the line alone is displaced.
-    pub fn slips_by_own(&self, i: usize, upwind: &UpwindSlip, closed: &[usize], mut give: impl FnMut(usize, f64)) {
+    /// Writes changes of the slip at a candidate with unit tangential forces at the `closed` candidates, as far as the line alone
+    /// is displaced, in the order of these.
+    pub fn slips_by_own(&self, i: usize, upwind: &UpwindSlip, closed: &[usize], slips: &mut Vec<f64>) {
         let (grid, along, gain) = (self.grid, self.kernel.tangential, self.problem.time.a0);
         let carried = self.traction.rigid.travel + self.rim_velocity();
-        let node = i + grid.guard;
-        let nodes = grid.logarithms.nrows();
-        let column = |at: usize| &grid.logarithms.as_slice()[at * nodes..][..nodes];
+        let (node, nodes) = (i + grid.guard, grid.logarithms.nrows());
         let constant = 2.0 * gain * along.factor * along.reach;
-        let rate = (column(node), 2.0 * gain * along.factor);
-        let [a, b, c] = upwind.stencil.map(|(at, weight)| (column(at / 2), -carried * weight * along.factor));
-        for (place, &j) in closed.iter().enumerate() {
-            let by = j + grid.guard;
-            let of = |(column, factor): (&[f64], f64)| factor * column[by];
-            give(place, constant + of(rate) + of(a) + of(b) + of(c));
+        let by_node = |node: usize, factor: f64| (&grid.logarithms.as_slice()[node * nodes..][..nodes], factor);
+        let [a, b, c] = upwind.stencil.map(|(at, weight)| by_node(at / 2, -carried * weight * along.factor));
+        let columns = [by_node(node, 2.0 * gain * along.factor), a, b, c];
+        slips.clear();
+        match closed {
+            // Neighbours: loops over them run several at a time.
+            [first, .., last] if last - first < closed.len() => {
+                slips.resize(closed.len(), constant);
+                for (column, factor) in columns {
+                    let column = &column[first + grid.guard..][..closed.len()];
+                    slips.iter_mut().zip(column).for_each(|(slip, logarithm)| *slip += factor * logarithm);
+                }
+            }
+            _ => slips.extend(closed.iter().map(|j| {
+                columns.iter().fold(constant, |slip, (column, factor)| slip + factor * column[j + grid.guard])
+            })),
         }
         if self.problem.layer > 0.0 {
             let rate = (grid.component(i), gain);
             let stencil = upwind.stencil.map(|(at, weight)| (at, -0.5 * carried * weight));
             for (at, factor) in [rate].into_iter().chain(stencil) {
-                if let Some(place) = closed.iter().position(|&j| grid.component(j) == at) {
-                    give(place, factor * self.layer_by_force(at));
+                if let Ok(place) = closed.binary_search_by_key(&at, |&j| grid.component(j)) {
+                    slips[place] += factor * self.layer_by_force(at);
                 }
             }
         }

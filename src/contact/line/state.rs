@@ -1,8 +1,8 @@
 //! States of the pairs of nodes of a line and the history of their displacements.
 
+use super::vectors::copy;
 use crate::multistep::History;
 use nalgebra::DVector;
-use super::vectors::copy;
 use serde::{Deserialize, Serialize};
 
 /// State of one pair of contact nodes.

@@ -67,17 +67,19 @@ fn slip_rows<const N: usize>(line: &ContactLine, nodes: &[usize]) -> SlipRows<N,
         powers: vec![[0.0; N]; POINTS],
     };
     let Some(patch) = line.problem.patch else { return rows };
-    let bodies = line.body_rows();
+    let (bodies, mut by_own) = (line.body_rows(), Vec::new());
     let of_moments = patch.own(0).map(|own| own.slips(slip_of_field(rates(line), patch.half_length)));
     for (place, &i) in nodes.iter().enumerate() {
         let (affine, upwind) = line.slip_row(i, &bodies);
-        line.slips_by_own(i, &upwind, nodes, |by, slip| rows.by_shear[0][by][place] += slip);
+        line.slips_by_own(i, &upwind, nodes, &mut by_own);
+        by_own.iter().enumerate().for_each(|(by, slip)| rows.by_shear[0][by][place] += slip);
         let powers = patch.powers(line.grid.x[i]);
         let felt = of_moments.map(|slips| slips.map(|slip| at(&slip, &powers)));
         for (by, &j) in nodes.iter().enumerate() {
             let node = j + line.grid.guard;
             let (values, rim) = (&line.grid.values[node], &line.iterate.rim);
-            let by_port = |(k, value): (usize, &f64)| value * (affine.ports[2 * k] + affine.angle * rim.by_ports[2 * k]);
+            let by_port =
+                |(k, value): (usize, &f64)| value * (affine.ports[2 * k] + affine.angle * rim.by_ports[2 * k]);
             let by_bodies: f64 = values.iter().enumerate().map(by_port).sum();
             let by_lines = felt.map_or(0.0, |felt| at(&felt, &patch.powers(line.grid.x[j])));
             rows.by_shear[0][by][place] +=
