@@ -118,7 +118,9 @@ fn simulated_numbers_are_those_of_the_library() {
             ("temperature.wheel_max", o.temperature_wheel_max),
             ("solver.energy_residual", o.energy_residual),
         ] {
-            assert_close(table.column(name)[i], value, 1e-12, &format!("{name} after {i} steps"));
+            // The residual is a small difference of large sums, in which the last bits of the moment tell.
+            let tolerance = if name == "solver.energy_residual" { 1e-9 } else { 1e-12 };
+            assert_close(table.column(name)[i], value, tolerance, &format!("{name} after {i} steps"));
         }
         let (now, end) = (i as f64 * step, (i + 1) as f64 * step);
         inputs.drive.moment = moment(now);

@@ -150,7 +150,8 @@ fn a_rolling_slide_of_a_fifth_counts_the_passes_of_a_point_and_opens_no_spot() {
 
 #[test]
 fn ordinary_braking_leaves_no_spot_and_no_memory_for_one() {
-    let model = model(coarse());
+    // A model that other tests share has memory of theirs.
+    let model = Model::prepare(coarse(), &common::store(), &mut |_, _| {}).unwrap();
     let (mut simulation, mut inputs) = rolling(&model);
     turn(&mut simulation, &mut inputs, 0.998, 0.2, 1e-3);
     let damage = &simulation.state().lines[0].thermal.as_ref().unwrap().damage;

@@ -36,7 +36,7 @@ const PRESSED: usize = OPENED.end.next_multiple_of(4);
 /// Affine function of what a line feels, by columns.
 pub type Felt = [f64; COLUMNS];
 /// The columns of pressures alone.
-type Pressed = [f64; PRESSED];
+type PressureColumns = [f64; PRESSED];
 
 /// Forces of one line.
 #[derive(Default)]
@@ -46,7 +46,7 @@ pub struct OwnForces {
     shear: DenseSystem,
     kept: Option<PressureKey>,
     /// Normal forces at the closed nodes, and the known ones among them.
-    pressed: Vec<[Pressed; 1]>,
+    pressed: Vec<[PressureColumns; 1]>,
     known: Vec<f64>,
     /// Tangential over normal forces at the closed nodes where they slip \[1], and places of the stuck ones among them.
     friction: Vec<f64>,
@@ -62,7 +62,7 @@ pub struct OwnForces {
     row: Vec<f64>,
 }
 
-/// What the factor of the pressures and their answer to what bodies and motions open depend on.
+/// Closed nodes and flexibility of a factor of pressures, and of their answer to what bodies and motions open.
 struct PressureKey {
     closed: Vec<usize>,
     along: Logarithm,

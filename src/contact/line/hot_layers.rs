@@ -27,9 +27,9 @@ pub struct HotLayers {
 }
 
 impl HotLayers {
-    /// Finds those of one body, and what the line itself displaces by them. Layers pull where they are heated and cooled: under
-    /// the patch of the `status` before and close to it. Farther away their heat stays as it is, and what differs there is the
-    /// error of wide cells.
+    /// Finds those of one body, and what the line itself displaces by them. Layers pull in the middle of
+    /// the grid, and close to the patch of the `status` before where that is longer. Farther away their heat stays as it is, and
+    /// what differs there is the error of wide cells.
     pub fn find(&mut self, grid: &ContactGrid, problem: &LineProblem, body: usize, status: &[NodeStatus]) {
         let (force, layer) = (problem.membrane[body], problem.placement.swelling[body]);
         let (swelling, membrane, pull) = (&mut self.swelling[body], &mut self.membrane[body], &mut self.pull[body]);
@@ -44,10 +44,11 @@ impl HotLayers {
         }
         force.sample(&grid.x, &mut self.force);
         let last = grid.len().saturating_sub(1);
-        let near = near_patch(grid, status);
+        let near = near_long_patch(grid, status);
         for i in 0..=last {
             let gradient = 0.5 * (self.force[(i + 1).min(last)] - self.force[i.saturating_sub(1)]);
-            pull.push(if near.contains(&grid.x[i]) { -gradient } else { 0.0 });
+            let pulls = in_the_middle(grid, i) || near.as_ref().is_some_and(|near| near.contains(&grid.x[i]));
+            pull.push(if pulls { -gradient } else { 0.0 });
         }
         self.force.clear();
         self.force.resize(grid.components(), 0.0);
@@ -88,13 +89,16 @@ impl HotLayers {
     }
 }
 
-/// Stretch around the closed nodes on which layers pull \[m]; without any, the whole grid.
-fn near_patch(grid: &ContactGrid, status: &[NodeStatus]) -> RangeInclusive<f64> {
+/// True if candidate `i` is in the middle of the grid, where nodes have one distance.
+fn in_the_middle(grid: &ContactGrid, i: usize) -> bool {
+    grid.share(i) == 1.0
+}
+
+/// Stretch around closed nodes that lie beyond the middle of the grid \[m]; `None`: there are none.
+fn near_long_patch(grid: &ContactGrid, status: &[NodeStatus]) -> Option<RangeInclusive<f64>> {
     let closed = |status: &NodeStatus| status.is_active();
-    let ends = status.iter().position(closed).zip(status.iter().rposition(closed));
-    let Some((low, high)) = ends.map(|(first, last)| (grid.x[first], grid.x[last])) else {
-        return f64::NEG_INFINITY..=f64::INFINITY;
-    };
-    let beside = BESIDE * (high - low) + grid.spacing;
-    low - beside..=high + beside
+    let (first, last) = status.iter().position(closed).zip(status.iter().rposition(closed))?;
+    let beside = BESIDE * (grid.x[last] - grid.x[first]) + grid.spacing;
+    let long = !in_the_middle(grid, first) || !in_the_middle(grid, last);
+    long.then(|| grid.x[first] - beside..=grid.x[last] + beside)
 }
