@@ -125,7 +125,8 @@ fn a_locked_hot_slide_is_that_of_the_grid_with_auto() {
     let [ours, theirs] = [ContactMethod::Auto, ContactMethod::Grid].map(run);
     let (a, b) = (ours.temperature_wheel_max, theirs.temperature_wheel_max);
     println!("{a:.2} and {b:.2} K, {:.3} and {:.3} kN", 1e-3 * ours.contact_force_x, 1e-3 * theirs.contact_force_x);
-    assert!((a / b - 1.0).abs() < 1e-4 && (ours.contact_force_x / theirs.contact_force_x - 1.0).abs() < 1e-4);
+    // Steel melts here, which makes more of a difference between two starts.
+    assert!((a / b - 1.0).abs() < 2e-4 && (ours.contact_force_x / theirs.contact_force_x - 1.0).abs() < 2e-3);
 }
 
 /// Rises \[K] of the highest temperature of the wheel: 4.6941, 4.6938, 4.6890 and 4.6880 with 10, 20, 40 and 80 elements.
