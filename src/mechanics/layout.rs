@@ -10,7 +10,8 @@ pub fn nominal_half_width(config: &Config) -> f64 {
     config.nominal_patch().half_length
 }
 
-/// Finite elements per half-width of the nominal contact: full bodies have no other nodes than theirs for the contact.
+/// Finite elements per half-width of the nominal contact: full bodies take the forces of contact nodes as nodal loads,
+/// and thus have one for each.
 fn elements(config: &Config) -> usize {
     let MeshParameters { elements_per_half_width, grid_elements_per_half_width, .. } = config.mesh;
     match config.solver.response {
