@@ -120,6 +120,11 @@ impl History {
         td.offset(self.now, self.before, self.rate)
     }
 
+    /// Moves on to a new value, or rests there where a step has no time.
+    pub fn reach(&mut self, td: &TimeDerivative, value: f64) {
+        if td.is_stationary() { *self = Self::constant(value) } else { self.push(td, value) }
+    }
+
     /// Moves on to a new value.
     pub fn push(&mut self, td: &TimeDerivative, value: f64) {
         let rate = td.a0 * value + self.offset(td);

@@ -126,15 +126,17 @@ fn held(case: &Json, lines: usize, series: bool) -> Held {
 fn creepage_under_a_held_force_develops_from_a_shift_to_rolling_as_by_contact() {
     let case = run_of_reference("held50");
     for (lines, series, tolerances) in [
-        (5, true, [0.09, 0.03]),
+        (5, true, [0.1, 0.03]),
         (7, false, [0.06, 0.02]),
         (7, true, [0.06, 0.02]),
+        (10, false, [0.06, 0.015]),
         (10, true, [0.06, 0.015]),
+        (13, false, [0.055, 0.015]),
         (13, true, [0.055, 0.015]),
     ] {
         let held = held(&case, lines, series);
         let Held { worst, rms, crept, settled, .. } = held;
-        if lines > 5 {
+        if lines > 5 && series {
             common::figure(&format!("ellipse.held.{lines}"), &[worst, rms]);
         }
         println!(
@@ -143,7 +145,9 @@ fn creepage_under_a_held_force_develops_from_a_shift_to_rolling_as_by_contact() 
             held.series
         );
         assert!(worst < tolerances[0] && rms < tolerances[1] && held.series.is_some() == series);
-        assert!(lines < 7 || settled < 0.0095 && crept < 0.045);
+        // Series that take over see displacements of nodes, which differ by a constant, for one step.
+        let most = if series { 0.04 } else { 0.0095 };
+        assert!(lines < 7 || settled < most && crept < 0.045);
     }
 }
 

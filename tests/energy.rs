@@ -190,7 +190,7 @@ fn heat_that_swells_and_pulls_under_a_locked_wheel_is_in_the_balance() {
         figure(&format!("energy.rings.{name}"), &[rings]);
         let [gentle, _] = run(name, 0.2, 1e-2, 0.6);
         figure(&format!("energy.locked.{name}"), &[gentle]);
-        assert!(gentle.abs() < 3e-5, "{name}: {gentle:.1e}");
+        assert!(gentle.abs() < 4e-5, "{name}: {gentle:.1e}");
     }
 }
 

@@ -184,9 +184,9 @@ fn a_slow_slide_whose_film_comes_and_goes_is_the_same_in_all_communication_steps
         means
     });
     let [force, temperature] = [0, 1].map(|k| differ(means[0][k], means[1][k]));
-    // Rounding decides when the torsion sticks: 2 to 6 % of the force and of the energy from build to build.
+    // Rounding decides when the torsion sticks: 2 to 6 % of the force and of the energy, 1 % of the temperature from build to build.
     common::round_off("locked.film", &[force, temperature], 0.08);
-    assert!(force < 0.08 && temperature < 0.01);
+    assert!(force < 0.08 && temperature < 0.02);
 }
 
 /// At 2 m/s the torsion sticks and slips. Without a memory of friction the force depended on the steps by a fifth, or

@@ -9,8 +9,9 @@ use wheelrail::simulation::{Inputs, Model, Simulation};
 
 const SPEED: f64 = 27.0;
 
-fn railway(method: ContactMethod, preset: &str) -> Arc<Model> {
+fn railway(method: ContactMethod, preset: &str, tolerance: f64) -> Arc<Model> {
     solved_by(method, preset, |config| {
+        config.tuning.tolerance = tolerance;
         config.thermal.enabled = false;
         config.physics.yielding = false;
         config.initial.velocity = SPEED;
@@ -35,7 +36,8 @@ fn forces_after_jumps_of_the_creepage_are_those_of_the_grid() {
     let mut random = Random(7);
     let step = |random: &mut Random| (random.logarithmic(1e-4, 1e-3), random.between(-4e-3, 4e-3));
     let steps: Vec<_> = (0..150).map(|_| step(&mut random)).collect();
-    let [patch, grid] = [ContactMethod::Patch, ContactMethod::Grid].map(|method| railway(method, "railway"));
+    // Steps are whole: what divides them is as good as random where the creepage jumps.
+    let [patch, grid] = [ContactMethod::Patch, ContactMethod::Grid].map(|method| railway(method, "railway", 0.0));
     let (ours, theirs) = (jumps(&patch, &steps), jumps(&grid, &steps));
     let errors: Vec<f64> = ours.iter().zip(&theirs).map(|(a, b)| (a - b).abs()).collect();
     let worst = errors.iter().fold(0.0_f64, |worst, error| worst.max(*error));
@@ -48,7 +50,7 @@ fn forces_after_jumps_of_the_creepage_are_those_of_the_grid() {
 #[test]
 fn moments_that_jump_on_lines_side_by_side_are_solved_within_friction_and_their_energy_is_accounted_for() {
     for preset in ["railway", "railway_ellipse"] {
-        let model = railway(ContactMethod::Auto, preset);
+        let model = railway(ContactMethod::Auto, preset, 2e-3);
         let mut random = Random(11);
         let mut inputs = Inputs::rolling(model.config());
         let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();

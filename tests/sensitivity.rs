@@ -321,7 +321,7 @@ fn derivatives_on_fixed_nodes_with_everything_varying_are_those_of_the_repeated_
                 let missed = |expected: f64| (found - expected).abs() / expected.abs().max(unit / size);
                 let error = sides.into_iter().map(missed).fold(missed(expected), f64::min);
                 (largest, compared, beyond) = (largest.max(error), compared + 1, beyond + usize::from(error >= 1e-5));
-                assert!(error < 2e-4, "{k}: d {output} / d {input}: {found:e}, {expected:e}, {error:.1e}");
+                assert!(error < 2e-3, "{k}: d {output} / d {input}: {found:e}, {expected:e}, {error:.1e}");
             }
         }
     }

@@ -263,7 +263,7 @@ fn the_flat_of_a_locked_wheel_is_as_long_as_its_saved_profile_shows() {
         common::figure(&format!("wear.flat.{case}"), &[(outputs.flat_length - length) / spacing]);
         assert!((outputs.flat_length - length).abs() < spacing, "{case}");
         assert!((outputs.flat_depth / depth - 1.0).abs() < 0.05, "{case}");
-        assert!(outputs.flat_depth >= outputs.worn_depth.max(outputs.flattening), "{case}");
+        assert!(outputs.flat_depth > (1.0 - 1e-12) * outputs.worn_depth.max(outputs.flattening), "{case}");
         // Steel yields in a part of the contact; beyond it lies what the wheel wore while it came to rest, on 50 mm.
         assert!((0.5..1.5).contains(&(outputs.flat_length / contact)), "{case}");
         inputs.drive.omega = inputs.drive.velocity / 0.46;

@@ -266,6 +266,15 @@ impl InPatch<'_> {
         fields
     }
 
+    /// Derivatives, by the size of this line, of the displacements along and across by the forces of all lines with the given
+    /// moments along and across, but for those of its own logarithms \[m].
+    pub fn growths<'a>(&self, moments: impl Iterator<Item = [&'a ByPowers; 2]> + Clone) -> [ByPowers; 2] {
+        let mut growths = self.flexibility.sums(self.line, moments.clone(), |by| &by.growth);
+        let own = moments.clone().nth(self.line).map_or([0.0; 2], |moments| moments.map(|moments| moments[0]));
+        (0..2).for_each(|k| growths[k][0] -= 0.5 * self.by_reach(k) * own[k]);
+        growths
+    }
+
     /// Effect of the own forces along (0) or across (1) in this direction; `None`: there is none.
     pub fn own(&self, direction: usize) -> Option<Between> {
         let mut own = match direction {

@@ -21,6 +21,15 @@ const ROOM: f64 = 1.5;
 /// a logarithm is positive on patches shorter than four times that, by the kernel of nodes 4.48 times.
 const REACH: f64 = 0.5;
 
+/// Size of the nodes of a line over those of a grid.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NodeSize {
+    /// Under the load of the layout \[1].
+    pub under_load: f64,
+    /// Under the load of the description of the patch \[1].
+    pub nominal: f64,
+}
+
 /// A line as part of a patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LineLayout {
@@ -34,6 +43,8 @@ pub struct LineLayout {
     pub half_length: f64,
     /// Distance by which its surfaces are farther apart than the hub says \[m].
     pub gap: f64,
+    /// Size of its nodes; `None`: that of the grid.
+    pub size: Option<NodeSize>,
     /// Flexibility that it has for itself.
     pub kernel: LineKernel,
     /// Elastic energy beside that of its flexibility, per metre of its width [J/m].
@@ -85,6 +96,10 @@ pub struct PatchLayout {
     least_reach: Option<f64>,
     /// Lengths of the lines on which they do, over those under the load of the description \[1].
     room: f64,
+    /// Half-length of lines whose nodes have the size of the grid \[m], and the smallest size over that under the load of the
+    /// description \[1].
+    unit: f64,
+    least: f64,
     half_space: HalfSpace,
     /// Strain of the surface under the pressure of every line [1/Pa].
     couplings: Vec<f64>,
@@ -159,6 +174,8 @@ impl PatchLayout {
             flexibility: Arc::new(flexibility),
             least_reach: None,
             room: 1.0,
+            unit: f64::INFINITY,
+            least: 0.0,
             half_space,
             couplings: patches().flat_map(|(rows, shape)| std::iter::repeat_n(coupling(shape), rows.len())).collect(),
             rows,
@@ -177,6 +194,12 @@ impl PatchLayout {
     /// reach so far that none is pushed by its own tangential forces.
     pub fn on_nodes(self, end: f64) -> Self {
         Self { least_reach: Some(REACH * end), ..self }
+    }
+
+    /// With nodes of a grid that suits the half-length `unit` \[m], as much larger or smaller as lines that move with the patch are
+    /// longer or shorter, but no smaller than by the factor `least` under the load of the description.
+    pub fn scaling(self, unit: f64, least: f64) -> Self {
+        Self { unit, least, ..self }
     }
 
     /// With lateral forces: every line stands for itself.
@@ -255,7 +278,12 @@ impl PatchLayout {
         let scale = libm::cbrt(self.load_of(load) / self.load);
         let approach = scale * scale * self.approach;
         let lines = rows::scaled(&self.rows, scale).enumerate();
-        lines.map(move |(i, row)| self.line(i, &row, scale, 1.5 * row.line_load / approach))
+        lines.map(move |(i, row)| {
+            let line = self.line(i, &row, scale, 1.5 * row.line_load / approach);
+            let nominal = row.half_length / (scale * self.unit);
+            let size = NodeSize { under_load: nominal * scale.max(self.least), nominal };
+            LineLayout { size: (nominal > 0.0).then_some(size), ..line }
+        })
     }
 
     /// Lines under a load \[N] that stay where they are while the patch changes: all are equally stiff, as under a flat
@@ -289,6 +317,7 @@ impl PatchLayout {
             position,
             share: width / self.width,
             half_length: self.room * half_length,
+            size: None,
             gap: approach - pressing * (2.0 * logarithm + 1.0),
             kernel: LineKernel {
                 tangential,

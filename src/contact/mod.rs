@@ -30,7 +30,7 @@ pub use error::ContactError;
 pub use flexibility::{HalfSpace, InPatch, PatchFlexibility};
 pub use friction::{Friction, FrictionLaw, Heating, SlipDependence};
 pub use kernel::{LineKernel, Logarithm};
-pub use layout::{LineLayout, PatchLayout, PatchMaterial};
+pub use layout::{LineLayout, NodeSize, PatchLayout, PatchMaterial};
 pub use limits::SteelLimits;
 pub use problem::{
     AxisDrive, Begin, ContactProblem, Influence, LayoutsOfLoad, LineProblem, OneLine, RetardedSurface, RigidMotion,

@@ -8,7 +8,7 @@ use super::error::ContactError;
 use super::flexibility::InPatch;
 use super::friction::Friction;
 use super::kernel::LineKernel;
-use super::layout::LineLayout;
+use super::layout::{LineLayout, NodeSize};
 use super::limits::SteelLimits;
 use crate::axes::{Axis, PerAxis};
 use crate::multistep::TimeDerivative;
@@ -166,6 +166,8 @@ pub struct LineProblem<'a> {
     pub share: f64,
     /// Lateral position about the centre of load \[m].
     pub position: f64,
+    /// Size of its nodes, if it is solved on nodes; `None`: that of the grid.
+    pub size: Option<NodeSize>,
     /// Flexibility that it has for itself.
     pub kernel: LineKernel,
     /// Flexibility of an elastic layer between the surfaces along them: displacement over shear [m/Pa]; 0: there is none.
@@ -196,6 +198,11 @@ impl LineProblem<'_> {
         self.bodies.retarded[0].map_or(self.kernel, |layer| self.kernel.at_once(layer.share))
     }
 
+    /// True if its nodes may be closer than those of the grid.
+    pub fn is_on_small_nodes(&self) -> bool {
+        self.size.is_some_and(|size| size.under_load < 1.0)
+    }
+
     /// True if its tractions and slips have a lateral part.
     pub fn is_sideways(&self) -> bool {
         self.patch.is_some_and(|patch| patch.flexibility.is_sideways())
@@ -212,11 +219,12 @@ impl LineProblem<'_> {
 
     /// This line in another layout, of which the gap is the change from the present one.
     pub fn laid_out(&self, layout: &LineLayout) -> Self {
-        let LineLayout { share, position, kernel, gap, .. } = *layout;
+        let LineLayout { share, position, size, kernel, gap, .. } = *layout;
         let placement = Placement { elevation: self.placement.elevation - gap, ..self.placement };
         Self {
             share,
             position,
+            size,
             kernel,
             patch: self.patch.map(|patch| layout.in_patch(patch.flexibility, patch.line)),
             placement,

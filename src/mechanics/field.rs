@@ -72,10 +72,34 @@ pub fn rail_field(
 /// [N/m].
 #[derive(Clone, Copy)]
 pub struct NodalLoads<'a> {
-    /// At all nodes.
+    /// At all surface nodes of its mesh.
     pub nodes: &'a DVector<f64>,
     /// At the ports.
     pub ports: &'a DVector<f64>,
+}
+
+/// Adds loads at the nodes of a contact grid, which are `size` times as far apart as the surface nodes of the bodies, to those at
+/// these, x and y of each: every load acts on both nodes beside it, with the same force and moment.
+pub fn add_loads(
+    config: &Config,
+    size: f64,
+    loads: &DVector<f64>,
+    sum: &mut DVector<f64>,
+) -> Result<(), MechanicsError> {
+    let x = contact_zone(config).surface_x();
+    if sum.is_empty() {
+        *sum = DVector::zeros(2 * x.len());
+    }
+    let loaded = loads.as_slice().as_chunks::<2>().0.iter().zip(&x).filter(|(load, _)| **load != [0.0; 2]);
+    for (load, place) in loaded {
+        let place = size * place;
+        let above = x.partition_point(|x| *x < place).clamp(1, x.len() - 1);
+        let share = ((place - x[above - 1]) / (x[above] - x[above - 1])).clamp(0.0, 1.0);
+        for (node, share) in [(above - 1, 1.0 - share), (above, share)] {
+            load.iter().enumerate().for_each(|(component, load)| sum[2 * node + component] += share * load);
+        }
+    }
+    Ok(())
 }
 
 impl NodalLoads<'_> {

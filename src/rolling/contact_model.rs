@@ -130,16 +130,12 @@ impl ContactModel {
         found.resize_with(start.len(), Line::default);
         let carried = |lines: &[Line]| self.width * lines::sum(lines, |line| line.contact.traction.resultant.height);
         let before = carried(start);
-        let mut load = self.patch.load_of(load_to_come::expected(
-            &self.patch,
-            step,
-            start,
-            [before, self.nominal_load],
-            self.width,
-        ));
+        let expected = load_to_come::expected(&self.patch, step, start, [before, self.nominal_load], self.width);
+        let mut load = self.patch.load_of(expected);
         // More layouts count as iterations: they tell one branch from another.
         let (mut more, mut first) = (0, load);
-        let mut begin = Begin::Before(if before > 0.0 && load > 0.0 { libm::cbrt(load / before) } else { 1.0 });
+        let grows = if before > 0.0 && expected > 0.0 { self.patch.stretch(expected / before) } else { 1.0 };
+        let mut begin = Begin::Before(grows);
         for _ in 0..MOST_LAYOUTS {
             self.patch.lay_out(load, lines::on_points(start), found);
             let laid_out = self.solve_laid_out((step, begin), start, (found, load), scratch);
@@ -149,7 +145,7 @@ impl ContactModel {
             }
             let next = self.patch.load_of(carried(found)).clamp(load / LARGEST_FACTOR, load * LARGEST_FACTOR);
             let next = followed(first, next);
-            if missed(load, next) <= if more == 0 { 0.0 } else { SAME_LOAD } {
+            if !self.patch.is_sized() || missed(load, next) <= if more == 0 { 0.0 } else { SAME_LOAD } {
                 break;
             }
             (load, more, begin) = (next, more + 1, Begin::Found);
@@ -162,7 +158,7 @@ impl ContactModel {
     /// patch.
     fn of_patch(&self, error: ContactError, load: f64) -> ContactError {
         match error {
-            ContactError::ZoneExceeded { zone, .. } if load > 0.0 => {
+            ContactError::ZoneExceeded { zone, .. } if self.patch.is_sized() && load > 0.0 => {
                 ContactError::ZoneExceeded { zone, load: load / self.width }
             }
             other => other,
@@ -212,6 +208,7 @@ impl ContactModel {
         LineProblem {
             share: layout.share,
             position: layout.position,
+            size: layout.size,
             kernel: layout.kernel,
             layer: self.layer,
             patch: self.patch.flexibility(start.contact.on_points()).map(|patch| layout.in_patch(patch, number)),

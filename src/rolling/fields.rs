@@ -3,9 +3,10 @@
 use super::line::Line;
 use super::model::RollingModel;
 use super::state::State;
+use crate::config::Config;
 use crate::heat::HeatError;
 use crate::mechanics::MechanicsError;
-use crate::mechanics::field::{NodalLoads, rail_field, wheel_field};
+use crate::mechanics::field::{NodalLoads, add_loads, rail_field, wheel_field};
 use nalgebra::DVector;
 
 pub use crate::heat::TemperatureField;
@@ -40,7 +41,8 @@ pub struct Fields {
 pub fn fields(model: &RollingModel, state: &State) -> Result<Fields, FieldError> {
     let (config, motion) = (&model.config, &state.motion);
     let lift = |nodes: &mut [[f64; 2]]| nodes.iter_mut().for_each(|[_, y]| *y += config.wheel.radius);
-    let (nodes, ports) = ([0, 1].map(|body| nodal_loads(state, body)), [0, 1].map(|body| state.loads(body)));
+    let (nodes, ports) =
+        ([nodal_loads(config, state, 0)?, nodal_loads(config, state, 1)?], [0, 1].map(|body| state.loads(body)));
     let loads = |body: usize| NodalLoads { nodes: &nodes[body], ports: &ports[body] };
     let mut wheel = wheel_field(config, &state.wheel, motion.omega.now, loads(0))?.ok_or(FieldError::Reduced)?;
     let mut rail = rail_field(config, &state.rail, motion.velocity.now, loads(1))?.ok_or(FieldError::Reduced)?;
@@ -61,8 +63,8 @@ pub fn fields(model: &RollingModel, state: &State) -> Result<Fields, FieldError>
 }
 
 /// Forces of all lines on the surface nodes of wheel (0) or rail (1), x and y of each, contact forces and the pull of hot
-/// layers [N/m]: contact under the full response is on the nodes of its finite elements.
-fn nodal_loads(state: &State, body: usize) -> DVector<f64> {
+/// layers [N/m].
+fn nodal_loads(config: &Config, state: &State, body: usize) -> Result<DVector<f64>, MechanicsError> {
     let sign = if body == 0 { 1.0 } else { -1.0 };
     let mut sum = DVector::zeros(0);
     for line in &state.lines {
@@ -71,9 +73,9 @@ fn nodal_loads(state: &State, body: usize) -> DVector<f64> {
         let guards = (loads.len() / 2).saturating_sub(nodes.pull[body].len()) / 2;
         nodes.pull[body].iter().enumerate().for_each(|(i, pull)| loads[2 * (i + guards)] += pull);
         loads *= line.layout.share;
-        sum = if sum.is_empty() { loads } else { sum + loads };
+        add_loads(config, nodes.size, &loads, &mut sum)?;
     }
-    sum
+    Ok(sum)
 }
 
 /// Absolute temperatures in wheel (about its centre) and rail under the hottest line, with either response; `None` if

@@ -4,7 +4,7 @@ use super::bodies::{Bodies, KeptOperators};
 use super::contact_model::ContactModel;
 use super::error::ModelError;
 use super::line::Line;
-use super::patch_lines::{self, PatchLines};
+use super::patch_lines;
 use super::rigid::RigidWheel;
 use super::state::State;
 use super::support::TrackSupport;
@@ -151,7 +151,7 @@ impl RollingModel {
         }
         let kernel = LineKernel::of_half_plane(Isotropic::from(&self.config.material).half_plane(), length);
         self.bodies = self.bodies.with_lines(kernel);
-        self.contact.patch = PatchLines::constant(&shares, kernel);
+        self.contact.patch = self.contact.patch.in_shares(&shares, kernel);
         Ok(self)
     }
 

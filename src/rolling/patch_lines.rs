@@ -2,7 +2,9 @@
 
 use super::line::Line;
 use crate::config::{Config, ContactShape, PatchRows, RowsError};
-use crate::contact::{HalfSpace, LineKernel, LineLayout, Logarithm, PatchFlexibility, PatchLayout, PatchMaterial};
+use crate::contact::{
+    HalfSpace, LineKernel, LineLayout, Logarithm, NodeSize, PatchFlexibility, PatchLayout, PatchMaterial,
+};
 use crate::material::Isotropic;
 use crate::surface;
 use std::sync::Arc;
@@ -30,6 +32,8 @@ pub fn apart(config: &Config) -> LineKernel {
 pub struct PatchLines {
     /// How they are laid out.
     layouts: Layouts,
+    /// Nodes of lines whose layout does not depend on the load.
+    nodes: LineNodes,
     /// Number of lines.
     pub count: usize,
     /// True if lines beside the middle stand for a symmetric pair.
@@ -55,6 +59,29 @@ enum Layouts {
     },
 }
 
+/// Size of the nodes of lines whose layout does not depend on the load.
+#[derive(Clone, Copy, Debug)]
+enum LineNodes {
+    /// Always the same one.
+    Fixed,
+    /// In proportion to the length of a plane patch, with the root of its load.
+    Following {
+        /// Load under which they have the size of the grid \[N].
+        load: f64,
+    },
+}
+
+impl LineNodes {
+    fn size(self, load: f64) -> Option<NodeSize> {
+        let Self::Following { load: nominal } = self else { return None };
+        let under_load = if load > 0.0 { (load / nominal).sqrt().max(LEAST_SIZE) } else { 1.0 };
+        Some(NodeSize { under_load, nominal: 1.0 })
+    }
+}
+
+/// Smallest size of nodes over those under the nominal load \[1].
+const LEAST_SIZE: f64 = 0.1;
+
 /// Half-length that patches of soft steel reach, over that under the nominal load \[1].
 const SOFT: f64 = 3.5;
 
@@ -77,16 +104,20 @@ impl PatchLines {
         let half_space =
             HalfSpace { shear_modulus: steel.shear_modulus(), poissons_ratio: config.material.poissons_ratio };
         let material = PatchMaterial { half_plane: steel.half_plane(), half_space };
+        let unit = config.nominal_patch().half_length;
         let (lines, radius, width, load) =
             (config.contact.lines, config.wheel.radius, config.width(), config.model.nominal_load);
         let patch = match (config.contact.shape, config.patch_rows()?) {
             (ContactShape::Line, _) => {
-                return Ok(Self::constant(&[1.0], LineKernel::of_half_plane(steel.half_plane(), 1.0)));
+                let patch = Self::constant(&[1.0], LineKernel::of_half_plane(steel.half_plane(), 1.0));
+                let following = LineNodes::Following { load };
+                return Ok(Self { nodes: if smooth { following } else { LineNodes::Fixed }, ..patch });
             }
             (_, Some(PatchRows { rows, shapes })) => PatchLayout::rows(rows, &shapes, material, lines, radius, width),
             (_, None) => PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load),
         };
         let lateral = |patch: PatchLayout| if config.contact.lateral { patch.sideways() } else { patch };
+        let patch = patch.scaling(unit, LEAST_SIZE);
         // Soft steel under lateral forces makes patches longer than that of the layout, too.
         let roomy = !smooth || config.contact.lateral && config.physics.yielding;
         let on_nodes = lateral(if roomy { patch.clone().with_room() } else { patch.clone() }).on_nodes(end);
@@ -99,14 +130,29 @@ impl PatchLines {
                 Layouts::Constant(on_nodes.staying(load, longest_patch(config)), flexibility)
             }
         };
-        Ok(Self { layouts, count, symmetric, centre, gaps })
+        Ok(Self { layouts, nodes: LineNodes::Fixed, count, symmetric, centre, gaps })
     }
 
     /// Lines with given shares of the width and one flexibility.
     pub fn constant(shares: &[f64], kernel: LineKernel) -> Self {
         let layout = |share: &f64| LineLayout { share: *share, kernel, ..LineLayout::default() };
         let layouts = Layouts::Constant(shares.iter().map(layout).collect(), None);
-        Self { layouts, count: shares.len(), symmetric: false, centre: 0.0, gaps: Vec::new() }
+        let nodes = LineNodes::Fixed;
+        Self { layouts, nodes, count: shares.len(), symmetric: false, centre: 0.0, gaps: Vec::new() }
+    }
+
+    /// Lines with given shares of the width and one flexibility in the place of these; their nodes go with the load as these do.
+    pub fn in_shares(&self, shares: &[f64], kernel: LineKernel) -> Self {
+        Self { nodes: self.nodes, ..Self::constant(shares, kernel) }
+    }
+
+    /// Ratio of the length of a patch under a load to that under another one.
+    pub fn stretch(&self, ratio: f64) -> f64 {
+        match (&self.layouts, self.nodes) {
+            (Layouts::Sized { .. }, _) => libm::cbrt(ratio),
+            (Layouts::Constant(..), LineNodes::Following { .. }) => ratio.sqrt(),
+            (Layouts::Constant(..), LineNodes::Fixed) => 1.0,
+        }
     }
 
     /// Flexibility of the lines, `on_points` or on nodes, under each other's tangential forces, if they feel them.
@@ -125,10 +171,16 @@ impl PatchLines {
 
     /// Load of which lines are laid out while they carry `load` \[N]; zero where that does not matter.
     pub fn load_of(&self, load: f64) -> f64 {
-        match &self.layouts {
-            Layouts::Constant(..) => 0.0,
-            Layouts::Sized { patch, .. } => patch.load_of(load),
+        match (&self.layouts, self.nodes) {
+            (Layouts::Constant(..), LineNodes::Fixed) => 0.0,
+            (Layouts::Constant(..), LineNodes::Following { .. }) => load,
+            (Layouts::Sized { patch, .. }, _) => patch.load_of(load),
         }
+    }
+
+    /// True if the flexibility of lines depends on the load.
+    pub fn is_sized(&self) -> bool {
+        matches!(self.layouts, Layouts::Sized { .. })
     }
 
     /// Load \[N] under which the bodies approach each other by `approach` \[m]; zero where that does not matter.
@@ -156,7 +208,8 @@ impl PatchLines {
     pub fn lay_out(&self, load: f64, on_points: bool, lines: &mut [Line]) {
         match &self.layouts {
             Layouts::Constant(layouts, _) => {
-                lines.iter_mut().zip(layouts).for_each(|(line, layout)| line.layout = *layout);
+                let laid_out = |layout: &LineLayout| LineLayout { size: self.nodes.size(load), ..*layout };
+                lines.iter_mut().zip(layouts).for_each(|(line, layout)| line.layout = laid_out(layout));
             }
             Layouts::Sized { .. } => {
                 let layouts = self.layouts(load, on_points).unwrap_or_default();
@@ -168,12 +221,18 @@ impl PatchLines {
     /// True if the lines of a state are as many, and have finite layouts.
     pub fn fits(&self, lines: &[Line]) -> bool {
         let sound = |line: &Line| {
-            let LineLayout { ordinate, position, share, half_length, gap, kernel, energy } = line.layout;
-            let sizes = [share, half_length].iter().all(|size| *size > 0.0 && size.is_finite());
+            let LineLayout { ordinate, position, share, half_length, gap, size, kernel, energy } = line.layout;
+            let nodes = size.map_or([1.0; 2], |size| [size.under_load, size.nominal]);
+            let mut sizes = [share, half_length].into_iter().chain(nodes);
+            let sizes = sizes.all(|size| size > 0.0 && size.is_finite());
             sizes && kernel.is_sound() && [ordinate, position, gap, energy].iter().all(|value| value.is_finite())
         };
         match &self.layouts {
-            Layouts::Constant(layouts, _) => lines.iter().map(|line| line.layout).eq(layouts.iter().copied()),
+            Layouts::Constant(layouts, _) => {
+                let same =
+                    |(line, layout): (&Line, &LineLayout)| LineLayout { size: layout.size, ..line.layout } == *layout;
+                lines.len() == layouts.len() && lines.iter().zip(layouts).all(same)
+            }
             Layouts::Sized { .. } => lines.len() == self.count && lines.iter().all(sound),
         }
     }

@@ -133,6 +133,7 @@ impl HalfPlanes {
         let mut problems = Vec::new();
         for (line, swelling) in lines.iter().zip(&swollen) {
             problems.push(LineProblem {
+                size: None,
                 patch: None,
                 share: line.share,
                 position: 0.0,

@@ -36,7 +36,7 @@ const WIDTH: f64 = 0.05;
 /// Reach of the points [m].
 const REACH: f64 = 0.03;
 /// Half of the length of the grid over that of the patch [1].
-const ROOM: f64 = 1.2;
+const ROOM: f64 = 2.0;
 
 fn modulus() -> f64 {
     contact_modulus(YOUNG, NU)
@@ -146,7 +146,8 @@ impl HalfSpaces {
         let grid = ContactGrid::uniform((-side..=side).map(|i| f64::from(i) * spacing).collect(), spacing, 3);
         Self {
             solver: solver(&grid),
-            patch: PatchLayout::ellipse(&hertz, radius, material(), lines, WIDTH, LOAD),
+            patch: PatchLayout::ellipse(&hertz, radius, material(), lines, WIDTH, LOAD)
+                .scaling(hertz.under(LOAD).a, 0.0),
             hertz,
             radius,
             bodies: RigidBodies::new(),

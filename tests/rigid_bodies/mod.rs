@@ -97,6 +97,7 @@ impl RigidBodies {
         };
         let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(radius));
         let line = |(line, layout): (usize, &LineLayout)| LineProblem {
+            size: layout.size,
             share: layout.share,
             position: layout.position,
             kernel: layout.kernel,

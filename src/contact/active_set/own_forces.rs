@@ -66,13 +66,14 @@ pub struct OwnForces {
 struct PressureKey {
     closed: Vec<usize>,
     along: Logarithm,
+    size: f64,
     logarithms: Arc<DMatrix<f64>>,
 }
 
 impl PressureKey {
     fn fits(&self, line: &ContactLine, closed: &[usize]) -> bool {
-        let same = self.along == line.kernel.normal && Arc::ptr_eq(&self.logarithms, &line.grid.logarithms);
-        same && self.closed == closed
+        let same = self.along == line.kernel.normal && self.size == line.grid.size;
+        same && Arc::ptr_eq(&self.logarithms, &line.grid.logarithms) && self.closed == closed
     }
 }
 
@@ -131,7 +132,8 @@ impl OwnForces {
         }
         if !kept && !yields {
             let logarithms = Arc::clone(&grid.logarithms);
-            self.kept = Some(PressureKey { closed: closed.clone(), along: line.kernel.normal, logarithms });
+            self.kept =
+                Some(PressureKey { closed: closed.clone(), along: line.kernel.normal, size: grid.size, logarithms });
         }
         let solved = self.pressures.solve_with(&mut self.known);
         self.pressed.iter_mut().zip(&self.known).for_each(|([pressed], known)| pressed[KNOWN] = *known);
@@ -141,7 +143,7 @@ impl OwnForces {
     /// Takes the factor of the pressures, and how they answer to what bodies and motions open.
     fn factorise(&mut self, line: &ContactLine, closed: &[usize]) -> bool {
         let Self { pressures, pressed, .. } = self;
-        let (along, grid) = (line.kernel.normal, line.grid);
+        let (along, grid) = (line.grid.unscaled(line.kernel.normal), line.grid);
         let nodes = grid.logarithms.nrows();
         pressures.reset(closed.len());
         pressed.clear();

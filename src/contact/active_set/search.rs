@@ -18,6 +18,7 @@ use crate::axes::Axis;
 use crate::contact::error::ContactError;
 use crate::contact::line::alone::Alone;
 use crate::contact::line::contact_line::{ContactLine, LineScratch, LineStart};
+use crate::contact::line::resize::Nodes;
 use crate::contact::line::state::NodeStatus;
 use crate::contact::line::{ContactGrid, exchange, finish, zone};
 use crate::contact::problem::{Begin, ContactProblem};
@@ -87,20 +88,23 @@ pub(super) struct ActiveSet<'a> {
 }
 
 impl<'a> ActiveSet<'a> {
-    /// A search that starts from the given states, one for each line of the problem.
+    /// A search that starts from the given states, one for each line of the problem, on nodes that `follow` the load where they may.
     pub fn new(
         grid: &'a ContactGrid,
-        problem: &'a ContactProblem<'a>,
-        starts: Vec<LineStart<'a>>,
+        (problem, follow): (&'a ContactProblem<'a>, bool),
+        mut starts: Vec<LineStart<'a>>,
         scratch: &'a mut ActiveSetScratch,
     ) -> Self {
         let accelerations = problem.rigid.map(|motion| motion.known_acceleration());
+        let motions = [problem.rigid.travel.start(), problem.rigid.rotation.start()];
+        let suited = problem.lines.iter().zip(&starts).map(|(line, start)| start.state.suited(line)).max();
+        let nodes = suited.filter(|_| follow).unwrap_or(Nodes::OfTheGrid);
         let ActiveSetScratch { lines: buffers, memory } = scratch;
         buffers.resize_with(problem.lines.len(), LineScratch::default);
-        for ((line, start), buffers) in problem.lines.iter().zip(&starts).zip(&mut *buffers) {
-            buffers.find_known(grid, line, start.state, accelerations);
+        for ((line, start), buffers) in problem.lines.iter().zip(&mut starts).zip(&mut *buffers) {
+            buffers.begin(grid, line, start.state, ((motions, nodes), accelerations));
         }
-        exchange::pulls(grid, &problem.lines, buffers);
+        exchange::pulls(&problem.lines, buffers);
         let together = problem.lines.iter().zip(starts).zip(buffers);
         let mut lines: Vec<_> =
             together.map(|((line, start), buffers)| ContactLine::new(grid, line, start, buffers)).collect();
@@ -108,7 +112,8 @@ impl<'a> ActiveSet<'a> {
         exchange::forces(&mut lines);
         // Lever arms of the start: without what the lines' own flexibility adds to them moments would not balance at once.
         lines.iter_mut().for_each(|line| {
-            Alone { kernel: line.kernel, grid }.find(line.state.forces.as_slice(), &mut line.iterate.own);
+            let alone = Alone { kernel: line.kernel, grid: line.grid };
+            alone.find(line.state.forces.as_slice(), &mut line.iterate.own);
             line.lift();
         });
         let penalties = lines.iter().map(states::penalty).collect();
@@ -135,7 +140,7 @@ impl<'a> ActiveSet<'a> {
         let iterations = self.find_states(laws)?;
         self.lines.iter_mut().for_each(|line| line.traction.iterations = iterations);
         self.lines.iter().try_for_each(zone::check)?;
-        self.lines.iter_mut().for_each(finish::finish);
+        finish::finish(&mut self.lines);
         Ok(())
     }
 
@@ -143,8 +148,9 @@ impl<'a> ActiveSet<'a> {
     /// others they would end elsewhere within their tolerance, and forces would jump where a layout is tried more or less.
     pub fn begin_states(&mut self) {
         match self.problem.begin {
-            Begin::Before(1.0) => {}
-            Begin::Before(factor) => self.lines.iter_mut().for_each(|line| states::stretch(line, factor)),
+            Begin::Before(factor) => {
+                self.lines.iter_mut().for_each(|line| states::stretch(line, factor / line.resized));
+            }
             Begin::Found => self.lines.iter_mut().for_each(ContactLine::resume),
         }
     }

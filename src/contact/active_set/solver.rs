@@ -35,12 +35,9 @@ impl ActiveSetSolver {
 }
 
 /// Makes `found` the start of a search, which begins with its states where they are `resumed`.
-fn begin<'a>(
-    start: &'a ContactState,
-    found: &'a mut ContactState,
-    resumed: bool,
-) -> Result<LineStart<'a>, ContactError> {
+fn begin<'a>(start: &ContactState, found: &'a mut ContactState, resumed: bool) -> Result<LineStart<'a>, ContactError> {
     let before = start.solver.grid().ok_or(ContactError::ForeignState)?;
+    let size_before = before.size;
     let ContactState { traction, history, energy, damping, solver, .. } = found;
     if !matches!(solver, SolverState::Grid(_)) {
         *solver = SolverState::Grid(Box::default());
@@ -54,7 +51,32 @@ fn begin<'a>(
     for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
         copy(ours, theirs);
     }
-    Ok(LineStart { before, state, history, traction, energy, damping, resumed })
+    Ok(LineStart { state, history, traction, energy, damping, resumed, size_before })
+}
+
+impl ActiveSetSolver {
+    /// Solves a problem, on nodes that follow the load where they are to and may.
+    fn find(
+        &self,
+        (problem, follow): (&ContactProblem, bool),
+        start: &[&ContactState],
+        found: &mut [&mut ContactState],
+        scratch: &mut ContactScratch,
+    ) -> Result<(), ContactError> {
+        let resumed = follow && problem.begin == Begin::Found && !problem.is_sideways();
+        let begun = start.iter().zip(found).map(|(start, found)| begin(start, found, resumed));
+        let mut starts = begun.collect::<Result<Vec<_>, _>>()?;
+        let ContactScratch { active_set, linear_laws, .. } = scratch;
+        if !problem.is_sideways() {
+            return ActiveSet::new(&self.grid, (problem, follow), starts, active_set).run();
+        }
+        for LineStart { state, history, .. } in &mut starts {
+            state.across.reach(self.grid.len());
+            history.friction.reach(2 * self.grid.len());
+        }
+        *linear_laws = ActiveSet::new(&self.grid, (problem, follow), starts, active_set).run_across()?;
+        Ok(())
+    }
 }
 
 impl ContactSolver for ActiveSetSolver {
@@ -63,6 +85,8 @@ impl ContactSolver for ActiveSetSolver {
         let touches = |x: &f64| if x.abs() < reach { NodeStatus::Stick } else { NodeStatus::Open };
         let (n, nodal) = (self.grid.len(), || DVector::zeros(self.grid.components()));
         let state = GridState {
+            size: 1.0,
+            share: 1.0,
             status: self.grid.x.iter().map(touches).collect(),
             yielded: vec![false; n],
             slip: vec![0.0; n],
@@ -91,19 +115,13 @@ impl ContactSolver for ActiveSetSolver {
         if !problem.lines.iter().all(fits) || [start.len(), found.len()] != [problem.lines.len(); 2] {
             return Err(ContactError::ForeignState);
         }
-        let resumed = problem.begin == Begin::Found && !problem.is_sideways();
-        let begun = start.iter().zip(found).map(|(start, found)| begin(start, found, resumed));
-        let mut starts = begun.collect::<Result<Vec<_>, _>>()?;
-        let ContactScratch { active_set, linear_laws, .. } = scratch;
-        if !problem.is_sideways() {
-            return ActiveSet::new(&self.grid, problem, starts, active_set).run();
+        match self.find((problem, true), start, found, scratch) {
+            // A patch that outgrows small nodes in one step has room on those of the grid.
+            Err(ContactError::ZoneExceeded { .. }) if problem.lines.iter().any(LineProblem::is_on_small_nodes) => {
+                self.find((problem, false), start, found, scratch)
+            }
+            solved => solved,
         }
-        for LineStart { state, history, .. } in &mut starts {
-            state.across.reach(self.grid.len());
-            history.friction.reach(2 * self.grid.len());
-        }
-        *linear_laws = ActiveSet::new(&self.grid, problem, starts, active_set).run_across()?;
-        Ok(())
     }
 
     fn fits(&self, state: &ContactState) -> bool {
@@ -115,6 +133,8 @@ impl ContactSolver for ActiveSetSolver {
             && state.history.friction.fits(if line.across.force.is_empty() { n } else { 2 * n })
             && line.surface.iter().chain([&line.forces]).all(|values| values.len() == components)
             && line.forces.iter().all(|f| f.is_finite())
+            && [line.size, line.share].iter().all(|size| *size > 0.0 && size.is_finite())
+            && (line.widened.is_empty() || line.widened.len() == n)
             && line.pull.iter().all(|pull| pull.is_empty() || pull.len() == n)
             && !line.elastic.iter().any(unequal)
             && state.traction.fits()
@@ -128,7 +148,8 @@ impl ContactSolver for ActiveSetSolver {
     }
 
     fn surface_strain(&self, state: &ContactState) -> [Piecewise; 2] {
-        let (grid, Some(line)) = (&self.grid, state.solver.grid()) else { return Default::default() };
+        let Some(line) = state.solver.grid() else { return Default::default() };
+        let grid = &self.grid.scaled(line.size);
         let strains = |u| (0..grid.len()).map(|i| grid.slope(u, i, 0)).collect();
         line.surface.each_ref().map(|u| Piecewise { x: grid.x.clone(), value: strains(u) })
     }

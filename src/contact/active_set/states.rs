@@ -172,7 +172,7 @@ pub(super) fn stretch(line: &mut ContactLine, factor: f64) {
     let (x, GridState { status, yielded, .. }) = (&line.grid.x, &mut *line.state);
     let closed = |s: &NodeStatus| s.is_active();
     let (Some(first), Some(last)) = (status.iter().position(closed), status.iter().rposition(closed)) else { return };
-    if (last - first) as f64 * (1.0 / factor - 1.0).abs() < 1.0 {
+    if factor == 1.0 || (last - first) as f64 * (1.0 / factor - 1.0).abs() < 1.0 {
         return;
     }
     let middle = 0.5 * (x[first] + x[last]);

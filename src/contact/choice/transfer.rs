@@ -41,6 +41,11 @@ pub(super) fn to_grid(
     let (SolverState::Series(patch), SolverState::Grid(state)) = (&from.solver, &mut target.solver) else {
         return None;
     };
+    state.size = if patch.size > 0.0 { patch.size } else { 1.0 };
+    if let Past::Series(past) = &patch.past[0] {
+        state.share = if past.share > 0.0 { past.share } else { 1.0 };
+    }
+    let grid = &grid.scaled(state.size);
     let Tractions { pressure, slide, stick, directions, .. } = &patch.tractions;
     let ([low, high], [stick_low, stick_high]) = (pressure.ends(), stick.ends());
     let slips = |sign: f64| if sign < 0.0 { NodeStatus::SlipBackward } else { NodeStatus::SlipForward };
@@ -106,6 +111,7 @@ fn across(
         force: (0..grid.len()).map(force).collect(),
         slip: (0..grid.len()).map(slip).collect(),
         gap: grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect(),
+        widened: Vec::new(),
     }
 }
 
@@ -181,6 +187,7 @@ fn even(grid: &ContactGrid) -> Range<usize> {
 /// that lie farther apart.
 pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &ContactState) -> Option<ContactState> {
     let (state, traction) = (from.solver.grid()?, &from.traction);
+    let grid = &grid.scaled(state.size);
     let ([edges], load) = (traction.edges.as_slice(), traction.resultant.height) else { return None };
     let reach = ROOM * constants.zone;
     if load <= 0.0 || traction.yielding.share > 0.0 || edges.low < -reach || edges.high > reach {

@@ -7,7 +7,6 @@ use super::alone::Alone;
 use super::contact_line::{ContactLine, LineAcross, LineIterate};
 use crate::contact::flexibility::at;
 use crate::contact::line::state::AcrossNodes;
-use crate::multistep::History;
 
 impl ContactLine<'_> {
     /// True if tractions and slips have a lateral part.
@@ -94,12 +93,9 @@ impl ContactLine<'_> {
         let time = self.problem.time;
         for i in 0..self.state.across.gap.len() {
             let moved = self.moved_across(i);
-            let history = &mut self.state.across.gap[i];
-            match time.is_stationary() {
-                true => *history = History::constant(moved),
-                false => history.push(&time, moved),
-            }
+            self.state.across.gap[i].reach(&time, moved);
         }
+        self.remember_width(1);
         let (first, LineAcross { displaced, moments, field, .. }) = (self.grid.component(0) / 2, &self.iterate.across);
         let own = self.state.across.force.iter().zip(&displaced[first.min(displaced.len())..]);
         let by_lines = moments.iter().zip(&field.displacement).map(|(moment, by)| moment * by);

@@ -28,7 +28,7 @@ impl Alone<'_> {
     /// Writes the displacements of all nodes by tangential (`component` 0), normal (1) or lateral forces (2) at neighbouring
     /// nodes, from the node `first` on \[m].
     pub fn displace(&self, component: usize, first: usize, forces: &[f64], displaced: &mut Vec<f64>) {
-        let (along, logarithms) = (self.kernel.along(component), &self.grid.logarithms);
+        let (along, logarithms) = (self.grid.unscaled(self.kernel.along(component)), &self.grid.logarithms);
         let nodes = logarithms.nrows();
         displaced.clear();
         displaced.resize(nodes, along.factor * along.reach * forces.iter().sum::<f64>());
@@ -39,7 +39,7 @@ impl Alone<'_> {
 
     /// Displacement of node `at` along a unit force of a component at the node `by` [m/(N/m)].
     pub fn by_force(&self, component: usize, at: usize, by: usize) -> f64 {
-        self.kernel.along(component).displacement(self.grid.logarithms[(at, by)])
+        self.grid.unscaled(self.kernel.along(component)).displacement(self.grid.logarithms[(at, by)])
     }
 
     /// Writes the displacements by `forces` on a body, x and y of every node [N/m].

@@ -4,11 +4,13 @@ use super::alone::{Alone, OwnDisplacement};
 use super::given::KnownPart;
 use super::grid::ContactGrid;
 use super::history::LineHistory;
+use super::resize::Nodes;
 use super::retarded::{PortForces, Retarded};
 use super::rim::{RimAngleRow, RimFrame};
 use super::slopes::Slopes;
 use super::state::{GridState, NodeStatus};
 use super::streamline::UpwindRows;
+use super::vectors::copy;
 use crate::axes::PerAxis;
 use crate::contact::flexibility::{ByPowers, Field};
 use crate::contact::kernel::LineKernel;
@@ -20,10 +22,23 @@ use nalgebra::DVector;
 /// Memory of a line; nothing in it outlives a solution.
 #[derive(Default)]
 pub struct LineScratch {
+    /// Its nodes; `None`: it has not been solved yet.
+    pub grid: Option<ContactGrid>,
+    /// Displacements and pulls that the step before has left at them.
+    pub before: Before,
     /// Known part of the problem.
     pub given: KnownPart,
     /// The rest.
     pub iterate: LineIterate,
+}
+
+/// Displacements and pulls at the nodes of a line at the end of the step before.
+#[derive(Default)]
+pub struct Before {
+    /// Displacements of wheel and rail, x and y of every node \[m].
+    pub surface: [DVector<f64>; 2],
+    /// Pulls of hot layers at the candidates, on wheel and rail [N/m]; empty: there were none.
+    pub pull: [Vec<f64>; 2],
 }
 
 /// Quantities of a line that follow from forces, states and motions in the present iterate.
@@ -35,6 +50,8 @@ pub struct LineIterate {
     /// of the patch do to it.
     pub moments: ByPowers,
     pub field: Field,
+    /// Derivatives of these displacements by the size of the line, along and across, see [`InPatch::growths`](crate::contact::InPatch::growths).
+    pub growth: [ByPowers; 2],
     /// Rim angle as an affine function of the forces.
     pub rim: RimAngleRow,
     /// Upwind differences of the slip.
@@ -71,16 +88,26 @@ pub struct LineAcross {
 }
 
 impl LineScratch {
-    /// Finds the known part of a problem for a line that starts from `state`, under rigid `accelerations` of the wheel that are
-    /// known.
-    pub fn find_known(
+    /// Takes the nodes of a line that starts from `state`, those of the `grid` in another size, and finds the known part of its
+    /// problem: `course` are V [m/s] and Ω [rad/s] with which the search begins and the choice of nodes, `accelerations` the
+    /// rigid ones that are known.
+    #[inline(never)]
+    pub fn begin(
         &mut self,
         grid: &ContactGrid,
         problem: &LineProblem,
-        state: &GridState,
-        accelerations: PerAxis<f64>,
+        state: &mut GridState,
+        (course, accelerations): (([f64; 2], Nodes), PerAxis<f64>),
     ) {
-        self.given.find(grid, problem, state, accelerations);
+        state.resize(grid, problem, course);
+        let fits = |own: &ContactGrid| own.size == state.size && own.is_scaled(grid);
+        let own = self.grid.take().filter(fits).unwrap_or_else(|| grid.scaled(state.size));
+        for (ours, theirs) in self.before.surface.iter_mut().zip(&state.surface) {
+            copy(ours, theirs);
+        }
+        self.before.pull.clone_from(&state.pull);
+        self.given.find(&own, problem, state, accelerations);
+        self.grid = Some(own);
     }
 }
 
@@ -99,8 +126,8 @@ pub struct ContactLine<'a> {
     /// Elastic energy of the line's flexibility, and the power that it takes where it is retarded [J/m, W/m].
     pub energy: &'a mut f64,
     pub damping: &'a mut f64,
-    /// State of the step before.
-    pub before: &'a GridState,
+    /// Displacements and pulls at the end of the step before.
+    pub before: &'a Before,
     /// Frame that turns with the rim, at the angle of the present iterate.
     pub frame: RimFrame<'a>,
     /// Rim angle that belongs to the surface displacements at hand \[rad]: in the first iteration those of the start,
@@ -109,12 +136,12 @@ pub struct ContactLine<'a> {
     /// Spin of the wheel, if the line has a lateral direction.
     pub spin: Spin,
     resumed: Option<Resumed>,
+    /// Size of the nodes over that in the step before \[1].
+    pub resized: f64,
 }
 
 /// State, history, traction and elastic energy from which a line starts, and which it changes.
 pub struct LineStart<'a> {
-    /// State of the step before.
-    pub before: &'a GridState,
     pub state: &'a mut GridState,
     pub history: &'a mut LineHistory,
     pub traction: &'a mut Traction,
@@ -123,6 +150,8 @@ pub struct LineStart<'a> {
     pub damping: &'a mut f64,
     /// States and forces with which the search begins, if they are others.
     pub resumed: Option<Resumed>,
+    /// Size of the nodes in the step before over that of the grid \[1].
+    pub size_before: f64,
 }
 
 /// States of the candidates and forces of a solution, from which another one is looked for.
@@ -144,15 +173,16 @@ impl Resumed {
 }
 
 impl<'a> ContactLine<'a> {
-    /// A line that starts from the given states; the known part of its problem is that of the `scratch`.
+    /// A line that starts from the given states; nodes and the known part of its problem are those of the `scratch`.
     pub fn new(
         grid: &'a ContactGrid,
         problem: &'a LineProblem<'a>,
         start: LineStart<'a>,
         scratch: &'a mut LineScratch,
     ) -> Self {
-        let LineStart { before, state, history, traction, energy, damping, resumed } = start;
-        let LineScratch { given, iterate } = scratch;
+        let LineStart { state, history, traction, energy, damping, resumed, size_before } = start;
+        let LineScratch { grid: own, before, given, iterate } = scratch;
+        let grid = own.as_ref().unwrap_or(grid);
         if !problem.limits.is_limited() {
             state.yielded.fill(false);
         }
@@ -173,11 +203,12 @@ impl<'a> ContactLine<'a> {
             traction,
             energy,
             damping,
-            before,
+            before: &*before,
             frame,
             surface_angle: 0.0,
             spin: Spin::default(),
             resumed,
+            resized: grid.size / size_before,
         }
     }
 

@@ -1,12 +1,11 @@
 //! Exchange of forces between lines side by side.
 
 use super::contact_line::{ContactLine, LineScratch};
-use super::grid::ContactGrid;
 use crate::contact::problem::LineProblem;
 use nalgebra::DVector;
 
 /// Displaces all lines by what the hot layers of all do to the bodies.
-pub fn pulls(grid: &ContactGrid, lines: &[LineProblem], scratch: &mut [LineScratch]) {
+pub fn pulls(lines: &[LineProblem], scratch: &mut [LineScratch]) {
     let Some(bodies) = lines.first().map(|line| &line.bodies) else { return };
     for body in 0..2 {
         let mut sum: DVector<f64> = DVector::zeros(0);
@@ -21,7 +20,7 @@ pub fn pulls(grid: &ContactGrid, lines: &[LineProblem], scratch: &mut [LineScrat
         }
         let displaced = (!sum.is_empty()).then(|| bodies.shared.compliance[body] * &sum);
         for scratch in &mut *scratch {
-            if let Some(displaced) = &displaced {
+            if let (Some(displaced), Some(grid)) = (&displaced, &scratch.grid) {
                 scratch.given.add_pulled(grid, body, displaced);
             }
             scratch.iterate.all.pull[body].clone_from(&sum);
@@ -60,5 +59,14 @@ fn fields(lines: &mut [ContactLine]) {
         } else {
             lines[k].iterate.field = patch.field(lines.iter().map(|line| &line.iterate.moments));
         }
+    }
+}
+
+/// Gives lines of a patch the derivatives of what all of them do to each other by their size.
+pub fn growths(lines: &mut [ContactLine]) {
+    for k in 0..lines.len() {
+        let Some(patch) = lines[k].problem.patch else { return };
+        let moments = lines.iter().map(|line| [&line.iterate.moments, &line.iterate.across.moments]);
+        lines[k].iterate.growth = patch.growths(moments);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::contact_line::ContactLine;
 use crate::contact::flexibility::{ByMoments, ByPowers, at, slip_of_field};
+use crate::multistep::History;
 
 impl ContactLine<'_> {
     /// Moments of tangential forces [N/m] at candidates with the powers of their places.
@@ -42,6 +43,32 @@ impl ContactLine<'_> {
     pub fn stretch_by_lines(&self, i: usize) -> f64 {
         let Some(patch) = self.problem.patch else { return 0.0 };
         0.5 * at(&self.iterate.field.strain, &patch.powers(self.grid.x[i])) / patch.half_length
+    }
+
+    /// Moves the history of what becomes smaller where the line becomes wider on, along (0) or across (1), see
+    /// [`GridState::widened`](super::state::GridState).
+    pub(super) fn remember_width(&mut self, direction: usize) {
+        let (time, Some(patch)) = (self.problem.time, self.problem.patch) else { return };
+        let mut widened = std::mem::take(match direction {
+            0 => &mut self.state.widened,
+            _ => &mut self.state.across.widened,
+        });
+        let begins = widened.is_empty();
+        widened.resize(self.grid.len(), History::default());
+        for (i, history) in widened.iter_mut().enumerate() {
+            let port = self.grid.component(i);
+            let own = match direction {
+                0 => 2.0 * self.iterate.own.along[port],
+                _ => 2.0 * self.iterate.displaced[port / 2],
+            };
+            let growth = at(&self.iterate.growth[direction], &patch.powers(self.grid.x[i]));
+            let value = own - 2.0 * growth;
+            if begins { *history = History::constant(value) } else { history.reach(&time, value) }
+        }
+        *match direction {
+            0 => &mut self.state.widened,
+            _ => &mut self.state.across.widened,
+        } = widened;
     }
 
     /// Slip [m/s] as a polynomial of the place by unit moments of the line number `by` of the patch; `None`: there is

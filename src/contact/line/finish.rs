@@ -2,12 +2,18 @@
 
 use super::alone::Alone;
 use super::contact_line::{ContactLine, LineIterate};
-use super::observe;
 use super::retarded::nodal_loads;
+use super::{exchange, observe};
 use crate::multistep::History;
 
+/// Moves the histories of all lines on and reads off their tractions.
+pub fn finish(lines: &mut [ContactLine]) {
+    exchange::growths(lines);
+    lines.iter_mut().for_each(finish_line);
+}
+
 /// Moves the histories of a line on and reads off its traction.
-pub fn finish(line: &mut ContactLine) {
+fn finish_line(line: &mut ContactLine) {
     // The velocity of the rim in it is that before the histories move on.
     let [friction, work] = line.take_friction_power();
     remember(line);
@@ -33,16 +39,13 @@ pub fn finish(line: &mut ContactLine) {
 /// Moves the histories of displacements and rim angle on, and takes the energy that lines have by each other.
 fn remember(line: &mut ContactLine) {
     let time = line.problem.time;
-    let push = |values: &mut History, value: f64| match time.is_stationary() {
-        true => *values = History::constant(value),
-        false => values.push(&time, value),
-    };
     for i in 0..line.grid.len() {
         let (port, [wheel, rail]) = (line.grid.component(i), &line.state.surface);
         let relative = wheel[port] - rail[port] + line.moved_by_lines(i) + line.moved_by_layer(port);
-        push(&mut line.state.tangential_gap[i], relative);
+        line.state.tangential_gap[i].reach(&time, relative);
     }
-    push(&mut line.history.rim_angle, line.frame.rim_angle);
+    line.remember_width(0);
+    line.history.rim_angle.reach(&time, line.frame.rim_angle);
     let LineIterate { moments, field, .. } = &*line.iterate;
     let by_lines = moments.iter().zip(&field.displacement).map(|(moment, by)| moment * by).sum::<f64>();
     *line.energy = 0.5 * by_lines + line.energy_of_layer();
@@ -84,10 +87,7 @@ fn load(line: &mut ContactLine) {
             state.elastic[body].resize(grid.components(), History::default());
             for ((history, load), known) in state.elastic[body].iter_mut().zip(&mut loads).zip(known) {
                 *load = layer.share * *load + known;
-                match time.is_stationary() {
-                    true => *history = History::constant(*load),
-                    false => history.push(time, *load),
-                }
+                history.reach(time, *load);
             }
             let rates: Vec<f64> = state.elastic[body].iter().map(|history| history.rate).collect();
             alone.find(&rates, &mut iterate.own);

@@ -1,6 +1,7 @@
 //! Surface nodes at which contact is looked for.
 
 use super::kernel::logarithms;
+use crate::contact::kernel::Logarithm;
 use crate::linalg::{Lagrange, POINTS};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
@@ -11,7 +12,8 @@ const ROUND_OFF: f64 = 1e-9;
 /// Pairs of surface nodes: candidates for contact with guard nodes on both sides. The nodes are uniformly spaced in the
 /// middle of the grid; beyond, their distance may grow slowly.
 ///
-/// Guard nodes never come into contact; the slip of the outermost candidates needs their displacements.
+/// Guard nodes never come into contact; the slip of the outermost candidates needs their displacements. A grid can be
+/// [`scaled`](Self::scaled) with the patch of a line, so that this has as many nodes under any load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactGrid {
     /// Positions of the candidates \[m], ascending.
@@ -28,8 +30,11 @@ pub struct ContactGrid {
     pub points: Lagrange,
     /// Values of these polynomials at all nodes.
     pub values: Arc<[[f64; POINTS]]>,
-    /// Logarithms of the distances of all nodes, see [`logarithms`] \[1].
+    /// Logarithms of the distances of all nodes of the grid of size 1, see [`logarithms`] \[1].
     pub logarithms: Arc<DMatrix<f64>>,
+    /// Size over that of this grid \[1], and its natural logarithm.
+    pub size: f64,
+    log_size: f64,
 }
 
 impl ContactGrid {
@@ -44,7 +49,39 @@ impl ContactGrid {
         let x = nodes.get(guard..nodes.len().saturating_sub(guard)).unwrap_or_default().to_vec();
         let points = Lagrange::new(x.last().copied().unwrap_or(spacing));
         let logarithms = Arc::new(logarithms(&nodes, spacing));
-        Self { x, spacing, guard, nodes, cells, values: Arc::new([]), logarithms, points }.seen_by_points()
+        Self { x, spacing, guard, nodes, cells, values: Arc::new([]), logarithms, points, size: 1.0, log_size: 0.0 }
+            .seen_by_points()
+    }
+
+    /// This grid, of size 1, on nodes that are `size` times as far apart, under the same bodies.
+    pub fn scaled(&self, size: f64) -> Self {
+        let times = |lengths: &[f64]| lengths.iter().map(|length| size * length).collect();
+        let Self { x, spacing, guard, nodes, cells, points, logarithms, .. } = self;
+        let (spacing, logarithms, values) = (size * spacing, Arc::clone(logarithms), Arc::new([]) as Arc<[_]>);
+        let [x, nodes, cells] = [x, nodes, cells].map(|lengths| times(lengths));
+        Self {
+            x,
+            spacing,
+            guard: *guard,
+            nodes,
+            cells,
+            points: points.clone(),
+            values,
+            logarithms,
+            size,
+            log_size: libm::log(size),
+        }
+        .seen_by_points()
+    }
+
+    /// True if this grid is `other` in another size.
+    pub fn is_scaled(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.logarithms, &other.logarithms)
+    }
+
+    /// A logarithm of the distance of these nodes as that of [`Self::logarithms`].
+    pub fn unscaled(&self, along: Logarithm) -> Logarithm {
+        Logarithm { reach: along.reach - self.log_size, ..along }
     }
 
     /// This grid under bodies whose polynomials reach to the distance `reach` \[m] from the middle.

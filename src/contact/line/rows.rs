@@ -119,7 +119,8 @@ impl ContactLine<'_> {
     /// Writes changes of the slip at a candidate with unit tangential forces at the `closed` candidates, as far as the line alone
     /// is displaced, in the order of these.
     pub fn slips_by_own(&self, i: usize, upwind: &UpwindSlip, closed: &[usize], slips: &mut Vec<f64>) {
-        let (grid, along, gain) = (self.grid, self.kernel.tangential, self.problem.time.a0);
+        let (grid, gain) = (self.grid, self.problem.time.a0);
+        let along = grid.unscaled(self.kernel.tangential);
         let carried = self.traction.rigid.travel + self.rim_velocity();
         let (node, nodes) = (i + grid.guard, grid.logarithms.nrows());
         let constant = 2.0 * gain * along.factor * along.reach;

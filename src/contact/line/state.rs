@@ -66,6 +66,10 @@ pub fn for_each_patch(status: &[NodeStatus], mut f: impl FnMut(std::ops::Range<u
 /// States of the candidates of a line, with gaps and slips, and the history of their displacements.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct GridState {
+    /// Size of the nodes over those of the grid \[1].
+    pub size: f64,
+    /// Width of the line over that of the bodies \[1].
+    pub share: f64,
     /// States of the candidates.
     pub status: Vec<NodeStatus>,
     /// Yielding of the candidates: true where the pressure of a closed pair is at its limit.
@@ -77,6 +81,10 @@ pub struct GridState {
     pub gap: Vec<f64>,
     /// Tangential displacement of the wheel less that of the rail, and its history \[m].
     pub tangential_gap: Vec<History>,
+    /// Part of it that becomes smaller where a line becomes wider, and its history \[m]: the displacement goes down by as
+    /// much as this does. It is that of the line's own logarithm less twice the growth of that by all lines
+    /// ([`Between::growth`](crate::contact::flexibility::Between)); empty: the line is in no patch.
+    pub widened: Vec<History>,
     /// Contact forces on the wheel, x and y of every node [N/m].
     pub forces: DVector<f64>,
     /// Displacements of wheel and rail, x and y of every node \[m].
@@ -99,6 +107,8 @@ pub struct AcrossNodes {
     pub slip: Vec<f64>,
     /// Lateral displacement of the wheel less that of the rail, and its history \[m].
     pub gap: Vec<History>,
+    /// Part of it that becomes smaller where a line becomes wider, see [`GridState::widened`].
+    pub widened: Vec<History>,
 }
 
 impl AcrossNodes {
@@ -124,6 +134,8 @@ impl GridState {
         self.slip.clone_from(&other.slip);
         self.gap.clone_from(&other.gap);
         self.tangential_gap.clone_from(&other.tangential_gap);
+        self.widened.clone_from(&other.widened);
+        (self.size, self.share) = (other.size, other.share);
         copy(&mut self.forces, &other.forces);
         self.surface.iter_mut().zip(&other.surface).for_each(|(ours, theirs)| copy(ours, theirs));
         self.pull.iter_mut().zip(&other.pull).for_each(|(ours, theirs)| ours.clone_from(theirs));
@@ -132,5 +144,6 @@ impl GridState {
         across.force.clone_from(&other.force);
         across.slip.clone_from(&other.slip);
         across.gap.clone_from(&other.gap);
+        across.widened.clone_from(&other.widened);
     }
 }

@@ -159,6 +159,7 @@ fn remember(
 ) -> [f64; 2] {
     let time = &line.problem.line.time;
     (state.tractions, state.kernel) = (line.tractions, line.problem.line.kernel);
+    state.size = line.problem.line.size.map_or(1.0, |size| size.under_load);
     let now = Past::Series(SeriesPast {
         tractions: line.tractions,
         smooth: line.relative(&line.surface, true),

@@ -209,6 +209,8 @@ impl ContactSolver for SeriesSolver {
         arches.iter().all(|arch| arch.is_sound())
             && series.past.iter().all(Past::is_sound)
             && series.kernel.is_sound()
+            && series.size.is_finite()
+            && series.size >= 0.0
             && series.uncorrected.is_sound()
             && (state.history.friction.fits(POWER) || state.history.friction.fits(2 * POWER))
             && state.traction.fits()

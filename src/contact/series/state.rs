@@ -132,6 +132,8 @@ pub struct SeriesState {
     pub tractions: Tractions,
     /// Flexibility that the line has for itself.
     pub kernel: LineKernel,
+    /// Size of the nodes on which it would be solved over those of the grid \[1]; zero: not known yet.
+    pub size: f64,
     /// Tangential displacement at its end, and one step earlier.
     pub past: [Past; 2],
     /// How the root at the place where slip begins depends on this place: change of its strength over the friction at

@@ -57,7 +57,7 @@ impl ActiveSet<'_> {
         }
         self.lines.iter_mut().for_each(|line| line.traction.iterations = turns.made);
         self.lines.iter().try_for_each(zone::check)?;
-        self.lines.iter_mut().for_each(finish::finish);
+        finish::finish(&mut self.lines);
         Ok(turns.linear_laws)
     }
 
