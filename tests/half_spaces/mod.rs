@@ -117,9 +117,14 @@ impl HalfSpaces {
         Self { patch, radius, ..other }
     }
 
+    /// As [`Self::new`], on nodes that scale with their line, a number of them per half axis along the direction of rolling.
+    pub fn on_nodes(aspect: f64, lines: usize, nodes: u32) -> Self {
+        Self::build(aspect, lines, nodes, |grid| Box::new(NodeChoice::new(grid.clone(), None)))
+    }
+
     /// As [`Self::sideways`], on a grid of a number of `nodes` per half axis along the direction of rolling.
     pub fn sideways_on_nodes(aspect: f64, lines: usize, nodes: u32) -> Self {
-        let along = Self::build(aspect, lines, nodes, |grid| Box::new(NodeChoice::new(grid.clone(), None)));
+        let along = Self::on_nodes(aspect, lines, nodes);
         Self { patch: along.patch.sideways(), ..along }
     }
 
