@@ -143,10 +143,10 @@ fn ripple(values: &[f64], stretch: usize) -> f64 {
 }
 
 /// Nodes follow the load, so that the edges of the patch pass none: under a creepage that is held and a load from 60 to 140 %, what
-/// is left of the ripple comes from the place where slip begins. On nodes that stay it was 8 N.
+/// is left of the ripple comes from the place where slip begins. On nodes that stay it was 1.7 N on a line and 3.6 N on seven.
 #[test]
 fn forces_on_nodes_hardly_ripple_while_the_load_rises() {
-    for (name, most) in [("railway", 2.0), ("railway_ellipse", 1.0)] {
+    for (name, most) in [("railway", 0.5), ("railway_ellipse", 0.5)] {
         let mut config = shipped(name);
         config.solver.contact = ContactMethod::Grid;
         (config.thermal.enabled, config.physics.yielding) = (false, false);

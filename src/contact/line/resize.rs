@@ -23,8 +23,8 @@ pub enum Nodes {
     Following,
     /// They stay where they are as long as they suit: on dented surfaces.
     Staying,
-    /// They are those of the grid: under steel that has softened patches become longer than their loads say, and the displacement
-    /// of an elastic layer has the kinks of the shear.
+    /// They are those of the grid: under steel that has softened patches become longer than their loads say, the displacement of an
+    /// elastic layer has the kinks of the shear, and retarded flexibility remembers forces at its nodes.
     OfTheGrid,
 }
 
@@ -99,21 +99,10 @@ impl GridState {
         self.take_states(&grid.x, ratio);
         let candidates = Interpolation::new(&grid.x, ratio);
         self.take_histories(&candidates, (share / problem.share).sqrt());
-        let density = |forces: &[f64]| -> Vec<f64> {
-            let of = |i: usize| candidates.at(i, |j| forces[j] / grid.width(j)) * ratio * grid.width(i);
-            (0..forces.len()).map(of).collect()
-        };
-        self.pull.iter_mut().for_each(|pull| *pull = density(pull));
-        for elastic in self.elastic.iter_mut().filter(|elastic| !elastic.is_empty()) {
-            for component in 0..2 {
-                let forces = |part: fn(&History) -> f64| {
-                    density(&(0..grid.len()).map(|i| part(&elastic[grid.component(i) + component])).collect::<Vec<_>>())
-                };
-                let [now, before, rate] = [forces(|h| h.now), forces(|h| h.before), forces(|h| h.rate)];
-                for i in 0..grid.len() {
-                    elastic[grid.component(i) + component] = History { now: now[i], before: before[i], rate: rate[i] };
-                }
-            }
+        // Tractions between nodes of other distances.
+        for pull in &mut self.pull {
+            let density = |i: usize| candidates.at(i, |j| pull[j] / grid.width(j));
+            *pull = (0..pull.len()).map(|i| density(i) * ratio * grid.width(i)).collect();
         }
         let nodes = Interpolation::new(grid.nodes(), ratio);
         for surface in &mut self.surface {
@@ -145,7 +134,8 @@ impl GridState {
 
     /// Choice of nodes that suits a line, as far as its surfaces and its steel are concerned.
     pub fn suited(&self, problem: &LineProblem) -> Nodes {
-        if problem.layer != 0.0 || !problem.limits.softened.is_empty() {
+        let retarded = problem.bodies.retarded.iter().any(Option::is_some);
+        if retarded || problem.layer != 0.0 || !problem.limits.softened.is_empty() {
             Nodes::OfTheGrid
         } else if self.yielded.contains(&true) || problem.surfaces.is_uneven(&problem.placement) {
             Nodes::Staying
@@ -210,7 +200,7 @@ mod tests {
             let (now, h) = (at(1.0, i), 1e-6);
             assert_eq!(now, rough(i));
             let slopes = [(at(1.0 + h, i) - now) / h, (now - at(1.0 - h, i)) / h];
-            assert!((slopes[0] - slopes[1]).abs() < 1e-4 * place.abs(), "{i}: {slopes:?}");
+            assert!((slopes[0] - slopes[1]).abs() <= 1e-4 * place.abs(), "{i}: {slopes:?}");
         }
     }
 }

@@ -6,14 +6,17 @@ use crate::contact::error::ContactError;
 /// Distance beyond the grid up to which uneven surfaces are watched, over half of its length \[1]: as far as their
 /// wings.
 const WATCHED: f64 = 3.0;
+/// Relative deviation of a place from the end that counts as none \[1].
+const ROUND_OFF: f64 = 1e-9;
 /// Distance of the places that are watched [spacings].
 const STRIDE: f64 = 2.0;
 
 /// Refuses patches that reach the end of the grid, and surfaces that would touch beyond it.
 pub fn check(line: &ContactLine) -> Result<(), ContactError> {
-    let ends = [line.state.status.first(), line.state.status.last()];
-    if ends.iter().flatten().any(|s| s.is_active()) || touches_beyond(line) {
-        let zone = line.grid.x.last().copied().unwrap_or(0.0);
+    // Nodes that are farther apart than those of the grid reach farther than the bodies do.
+    let zone = line.grid.x.last().map_or(0.0, |last| last / line.grid.size.max(1.0));
+    let at_end = |i: usize| line.state.status[i].is_active() && line.grid.x[i].abs() > (1.0 - ROUND_OFF) * zone;
+    if (0..line.grid.len()).any(at_end) || touches_beyond(line) {
         let load = line.traction.port_forces.iter().skip(1).step_by(2).sum();
         return Err(ContactError::ZoneExceeded { zone, load });
     }
