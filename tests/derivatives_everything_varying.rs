@@ -153,12 +153,12 @@ fn derivatives_of_the_temperature_of_friction_are_those_of_the_repeated_step_on_
 
 /// As nodes are about to close the weights of their neighbours come to their new values without a kink. Measured: 2e-6; where
 /// they had one, 7e-3. In divided steps some of 2415 derivatives are those of one side, since layouts begin with the load to come, and
-/// nodes go with it: 1e-4, and so is one pair on S1002.
+/// nodes go with it: 1e-4. On S1002 four pairs are those of one side, to 1.4e-4.
 #[test]
 fn derivatives_on_fixed_nodes_are_those_of_the_repeated_step_where_a_node_is_about_to_close() {
     let cases = [
         (undivided("railway_ellipse"), BOUND, 2),
-        (undivided("railway_s1002_3mm"), 2e-4, 2),
+        (undivided("railway_s1002_3mm"), 2e-4, 6),
         (shipped("railway_ellipse"), 2e-4, 20),
     ];
     for (config, bound, most) in cases {
