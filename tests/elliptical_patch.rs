@@ -77,6 +77,12 @@ fn creep_coefficients_of_small_creepages_are_those_of_kalker() {
     }
 }
 
+/// Runs of the reference with their names whose creepage and load are given.
+fn prescribed(reference: &Json) -> impl Iterator<Item = (&str, &Json)> {
+    let named = reference["transient"].as_array().unwrap().iter().map(|case| (case["name"].as_str().unwrap(), case));
+    named.filter(|(name, _)| !name.starts_with("cattaneo") && !name.starts_with("held"))
+}
+
 /// Largest errors of a run of the reference: creepage and load are given at the end of every step.
 fn transient(case: &Json, spaces: &HalfSpaces) -> f64 {
     let (xi, load, force) = (numbers(&case["xi"]), numbers(&case["load"]), numbers(&case["Fx"]));
@@ -97,11 +103,7 @@ fn transient(case: &Json, spaces: &HalfSpaces) -> f64 {
 #[test]
 fn creepage_that_jumps_or_swings_and_loads_that_vary_give_the_forces_of_contact() {
     let reference = reference();
-    for case in reference["transient"].as_array().unwrap() {
-        let name = case["name"].as_str().unwrap();
-        if name.starts_with("cattaneo") || name.starts_with("held") {
-            continue;
-        }
+    for (name, case) in prescribed(&reference) {
         for lines in [5, 7, 9] {
             let tolerance = if name == "load3" { 0.004 } else { 0.008 };
             let worst = transient(case, &HalfSpaces::new(number(&case["aspect"]), lines));
@@ -118,11 +120,7 @@ fn creepage_that_jumps_or_swings_and_loads_that_vary_give_the_forces_of_contact(
 #[test]
 fn nodes_that_scale_with_their_line_give_the_forces_of_contact_as_creepage_and_load_vary() {
     let reference = reference();
-    for case in reference["transient"].as_array().unwrap() {
-        let name = case["name"].as_str().unwrap();
-        if name.starts_with("cattaneo") || name.starts_with("held") {
-            continue;
-        }
+    for (name, case) in prescribed(&reference) {
         for nodes in [10, 20] {
             let worst = transient(case, &HalfSpaces::on_nodes(number(&case["aspect"]), 7, nodes));
             common::figure(&format!("nodes.{name}.{nodes}"), &[worst]);

@@ -8,8 +8,8 @@
 //! [`field`] what the lines of a patch do to each other, [`streamline`] the upwind differences of the slip,
 //! [`kernel`] the correction of the compliance at grid scale, [`slopes`] the slopes against which pressure pushes,
 //! [`rim`] the frame that turns with the rim, [`retarded`] the forces of retarded layers, [`zone`] the ends of the
-//! grid, [`resize`] the way to nodes of another size. Of a solution [`power`] takes the power, [`observe`] the traction, and [`mod@finish`] both. Theory:
-//! `docs/theory/contact.md`.
+//! grid, [`resize`] the way to nodes of another size. Of a solution [`power`] takes the power, [`observe`] the traction,
+//! and [`mod@finish`] both. Theory: `docs/theory/contact.md`.
 
 pub(super) mod across;
 pub(super) mod alone;

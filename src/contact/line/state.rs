@@ -122,7 +122,10 @@ impl AcrossNodes {
     /// True if it is empty or has `n` finite candidates.
     pub fn fits(&self, n: usize) -> bool {
         let lengths = [self.force.len(), self.slip.len(), self.gap.len()];
-        (lengths == [0; 3] || lengths == [n; 3]) && self.force.iter().chain(&self.slip).all(|value| value.is_finite())
+        let widened = self.widened.is_empty() || self.widened.len() == n;
+        widened
+            && (lengths == [0; 3] || lengths == [n; 3])
+            && self.force.iter().chain(&self.slip).all(|value| value.is_finite())
     }
 }
 
