@@ -62,10 +62,10 @@ fn fields(lines: &mut [ContactLine]) {
     }
 }
 
-/// Gives lines of a patch the derivatives of what all of them do to each other by their size.
+/// Gives lines of a patch whose nodes have its size the derivatives of what all of them do to each other by it.
 pub fn growths(lines: &mut [ContactLine]) {
     for k in 0..lines.len() {
-        let Some(patch) = lines[k].problem.patch else { return };
+        let LineProblem { patch: Some(patch), size: Some(_), .. } = lines[k].problem else { continue };
         let moments = lines.iter().map(|line| [&line.iterate.moments, &line.iterate.across.moments]);
         lines[k].iterate.growth = patch.growths(moments);
     }

@@ -2,6 +2,7 @@
 
 use super::contact_line::ContactLine;
 use crate::contact::flexibility::{ByMoments, ByPowers, at, slip_of_field};
+use crate::contact::problem::LineProblem;
 use crate::multistep::History;
 
 impl ContactLine<'_> {
@@ -48,7 +49,7 @@ impl ContactLine<'_> {
     /// Moves the history of what becomes smaller where the line becomes wider on, along (0) or across (1), see
     /// [`GridState::widened`](super::state::GridState).
     pub(super) fn remember_width(&mut self, direction: usize) {
-        let (time, Some(patch)) = (self.problem.time, self.problem.patch) else { return };
+        let LineProblem { time, patch: Some(patch), size: Some(_), .. } = *self.problem else { return };
         let mut widened = std::mem::take(match direction {
             0 => &mut self.state.widened,
             _ => &mut self.state.across.widened,

@@ -15,6 +15,9 @@ use std::ops::Range;
 /// which nodes stay at all \[1].
 const LEAST_WAY: f64 = 0.02;
 const SUITABLE: Range<f64> = 0.5..2.0;
+/// Relative change of the size that is none \[1]: a load that is held differs by less from step to step, and factors of the
+/// nodes at hand go on being right.
+const SAME_SIZE: f64 = 1e-6;
 
 /// Choice of the nodes of all lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -127,7 +130,7 @@ impl GridState {
         let way = 0.5 * problem.duration * (velocity.abs() + problem.radius() * omega.abs());
         let moves = way >= LEAST_WAY * self.size * grid.spacing || problem.time.is_stationary() && velocity != 0.0;
         if moves && nodes == Nodes::Following {
-            return under_load;
+            return if (under_load / self.size - 1.0).abs() < SAME_SIZE { self.size } else { under_load };
         }
         let size = under_load.max(nominal);
         if SUITABLE.contains(&(size / self.size)) { self.size } else { size }
