@@ -115,9 +115,9 @@ impl GridState {
     }
 
     /// Size of the nodes in a problem, for the velocities V [m/s] and Ω [rad/s] with which the search begins: that of the patch
-    /// under the load. Sticking surfaces remember at every place what has been before, and dents have the shape of the nodes
-    /// that pressed them: under material that hardly moves and on dents nodes stay as long as they suit, and where they do not they
-    /// become at least as large as under the nominal load.
+    /// under the load, or the present one where that is the same within [`SAME_SIZE`]. Sticking surfaces remember at every place
+    /// what has been before, and dents have the shape of the nodes that pressed them: under material that hardly moves and on dents
+    /// nodes stay as long as they suit, and where they do not they become at least as large as under the nominal load.
     fn next_size(
         &self,
         grid: &ContactGrid,
