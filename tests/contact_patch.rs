@@ -24,7 +24,7 @@ fn grid(shift: f64) -> ContactGrid {
 fn traction(grid: &ContactGrid, normal: impl Fn(f64) -> f64, tangential: impl Fn(f64) -> f64) -> Traction {
     let (n, forces) = (grid.len(), DVector::zeros(grid.components()));
     let (status, zeros) = (vec![NodeStatus::Open; n], vec![0.0; n]);
-    let mut state = GridState { status, slip: zeros.clone(), gap: zeros, forces, ..Default::default() };
+    let mut state = GridState { status, slip: [zeros.clone(), Vec::new()], gap: zeros, forces, ..Default::default() };
     let mut traction = Traction::default();
     for (i, &x) in grid.x.iter().enumerate() {
         let (n, t) = (normal(x), tangential(x));

@@ -121,19 +121,19 @@ impl PatchFlexibility {
 
     /// Sums over the forces of all lines with the given moments along and across [N/m], by line, on the line `at`: along
     /// and across.
-    pub fn sums<'a>(
+    pub fn sums(
         &self,
         at: usize,
-        moments: impl IntoIterator<Item = [&'a ByPowers; 2]>,
+        moments: impl IntoIterator<Item = [ByPowers; 2]>,
         of: impl Fn(&Between) -> &ByMoments,
     ) -> [ByPowers; 2] {
         let mut sums = [ByPowers::default(); 2];
         for (by, [along, across]) in moments.into_iter().enumerate() {
-            add(of(self.between(at, by)), along, &mut sums[0]);
+            add(of(self.between(at, by)), &along, &mut sums[0]);
             let Some([direct, askew]) = self.across(at, by).map(|tables| tables.map(&of)) else { continue };
-            add(askew, across, &mut sums[0]);
-            add(direct, across, &mut sums[1]);
-            add(askew, along, &mut sums[1]);
+            add(askew, &across, &mut sums[0]);
+            add(direct, &across, &mut sums[1]);
+            add(askew, &along, &mut sums[1]);
         }
         sums
     }
@@ -153,20 +153,6 @@ impl PatchFlexibility {
     /// Effect of the forces of a line `by` on a line `at`.
     pub fn between(&self, at: usize, by: usize) -> &Between {
         &self.pairs[at * self.lines + by]
-    }
-
-    /// Sum over the forces of all lines with the given moments [N/m], by line, on the line `at`.
-    pub fn sum<'a>(
-        &self,
-        at: usize,
-        moments: impl IntoIterator<Item = &'a ByPowers>,
-        of: impl Fn(&Between) -> &ByMoments,
-    ) -> ByPowers {
-        let mut sum = ByPowers::default();
-        for (by, moments) in moments.into_iter().enumerate() {
-            add(of(self.between(at, by)), moments, &mut sum);
-        }
-        sum
     }
 }
 
@@ -247,17 +233,8 @@ pub fn slip_of_field([rate, speed]: [f64; 2], half_length: f64) -> [f64; 2] {
 }
 
 impl InPatch<'_> {
-    /// Field of the forces of all lines with the given moments on this one.
-    pub fn field<'a>(&self, moments: impl Iterator<Item = &'a ByPowers> + Clone) -> Field {
-        let sum = |of: fn(&Between) -> &ByMoments| self.flexibility.sum(self.line, moments.clone(), of);
-        let mut field = Field { displacement: sum(|by| &by.displacement), strain: sum(|by| &by.strain) };
-        let own = moments.clone().nth(self.line).map_or(0.0, |moments| moments[0]);
-        field.displacement[0] += self.by_reach(0) * own;
-        field
-    }
-
     /// Fields along and across of the forces of all lines with the given moments along and across on this one.
-    pub fn fields<'a>(&self, moments: impl Iterator<Item = [&'a ByPowers; 2]> + Clone) -> [Field; 2] {
+    pub fn fields(&self, moments: impl Iterator<Item = [ByPowers; 2]> + Clone) -> [Field; 2] {
         let sums = |of: fn(&Between) -> &ByMoments| self.flexibility.sums(self.line, moments.clone(), of);
         let (displacement, strain) = (sums(|by| &by.displacement), sums(|by| &by.strain));
         let mut fields = [0, 1].map(|k| Field { displacement: displacement[k], strain: strain[k] });
@@ -268,7 +245,7 @@ impl InPatch<'_> {
 
     /// Derivatives, by the size of this line, of the displacements along and across by the forces of all lines with the given
     /// moments along and across, but for those of its own logarithms \[m].
-    pub fn growths<'a>(&self, moments: impl Iterator<Item = [&'a ByPowers; 2]> + Clone) -> [ByPowers; 2] {
+    pub fn growths(&self, moments: impl Iterator<Item = [ByPowers; 2]> + Clone) -> [ByPowers; 2] {
         let mut growths = self.flexibility.sums(self.line, moments.clone(), |by| &by.growth);
         let own = moments.clone().nth(self.line).map_or([0.0; 2], |moments| moments.map(|moments| moments[0]));
         (0..2).for_each(|k| growths[k][0] -= 0.5 * self.by_reach(k) * own[k]);
@@ -420,8 +397,8 @@ mod tests {
         ];
         let none = [ByPowers::default(); 2];
         let work = |at: usize, by: usize, of: fn(&Between) -> &ByMoments| -> f64 {
-            let moments = (0..tiles.len()).map(|line| if line == by { &forces[line] } else { &none });
-            let fields = patch.sums(at, moments.map(|[along, across]| [along, across]), of);
+            let moments = (0..tiles.len()).map(|line| if line == by { forces[line] } else { none });
+            let fields = patch.sums(at, moments, of);
             let product = forces[at].as_flattened().iter().zip(fields.as_flattened()).map(|(f, c)| f * c).sum::<f64>();
             tiles[at].width() * product
         };

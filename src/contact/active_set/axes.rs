@@ -103,7 +103,7 @@ impl<'a> Axes<'a> {
         for line in lines {
             equation.constant += line.problem.share
                 * match axis {
-                    Axis::Lateral => -line.state.across.force.iter().sum::<f64>(),
+                    Axis::Lateral => -line.state.lateral.iter().sum::<f64>(),
                     Axis::Rotation => line.problem.radius() * line.iterate.retarded.force.iter().sum::<f64>(),
                     Axis::Travel | Axis::Height => 0.0,
                 };

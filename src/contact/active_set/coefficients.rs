@@ -1,6 +1,5 @@
 //! Friction coefficients that follow the laws of their slips while states, forces and motions are found.
 
-use super::states;
 use crate::contact::error::ContactError;
 use crate::contact::friction::{CoefficientSearches, Tried};
 use crate::contact::line::contact_line::ContactLine;
@@ -61,13 +60,14 @@ impl FollowedLaws {
 
     /// Takes the slips of a solution and gives lines coefficients nearer to their laws.
     pub fn follow(&mut self, lines: &mut [ContactLine], progress: Progress) -> Result<Obedience, ContactError> {
-        lines.iter_mut().for_each(|line| line.traction.friction.tread_slip = states::mean_slip(line));
+        for line in &mut *lines {
+            let [along, across] = line.mean_slips();
+            let friction = &mut line.traction.friction;
+            (friction.tread_slip, friction.slip_speed) = (along, libm::hypot(along, across));
+        }
         let Some(searches) = &mut self.searches else { return Ok(Obedience::Obeyed) };
         let used: Vec<f64> = lines.iter().map(|line| line.traction.friction.coefficient).collect();
-        let law = |line: &ContactLine| match line.is_sideways() {
-            true => line.problem.friction.coefficient(line.slip_speed()),
-            false => line.problem.friction.coefficient(line.traction.friction.tread_slip),
-        };
+        let law = |line: &ContactLine| line.problem.friction.coefficient(line.traction.friction.slip_speed);
         let found: Vec<f64> = lines.iter().map(law).collect();
         let tells = |(used, found): (&f64, &f64)| (used - found).abs() <= LARGEST * used.max(*found);
         let error = match progress {

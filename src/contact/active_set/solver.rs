@@ -71,7 +71,7 @@ impl ActiveSetSolver {
             return ActiveSet::new(&self.grid, (problem, follow), starts, active_set).run();
         }
         for LineStart { state, history, .. } in &mut starts {
-            state.across.reach(self.grid.len());
+            state.reach_across(self.grid.len());
             history.friction.reach(2 * self.grid.len());
         }
         *linear_laws = ActiveSet::new(&self.grid, (problem, follow), starts, active_set).run_across()?;
@@ -89,9 +89,9 @@ impl ContactSolver for ActiveSetSolver {
             share: 1.0,
             status: self.grid.x.iter().map(touches).collect(),
             yielded: vec![false; n],
-            slip: vec![0.0; n],
+            slip: [vec![0.0; n], Vec::new()],
             gap: vec![0.0; n],
-            tangential_gap: vec![History::default(); n],
+            moved: [vec![History::default(); n], Vec::new()],
             forces: nodal(),
             surface: [nodal(), nodal()],
             ..GridState::default()
@@ -127,17 +127,7 @@ impl ContactSolver for ActiveSetSolver {
     fn fits(&self, state: &ContactState) -> bool {
         let Some(line) = state.solver.grid() else { return false };
         let (n, components) = (self.grid.len(), self.grid.components());
-        let unequal = |elastic: &Vec<History>| !elastic.is_empty() && elastic.len() != components;
-        [line.status.len(), line.slip.len(), line.gap.len(), line.tangential_gap.len(), line.yielded.len()] == [n; 5]
-            && line.across.fits(n)
-            && state.history.friction.fits(if line.across.force.is_empty() { n } else { 2 * n })
-            && line.surface.iter().chain([&line.forces]).all(|values| values.len() == components)
-            && line.forces.iter().all(|f| f.is_finite())
-            && [line.size, line.share].iter().all(|size| *size > 0.0 && size.is_finite())
-            && (line.widened.is_empty() || line.widened.len() == n)
-            && line.pull.iter().all(|pull| pull.is_empty() || pull.len() == n)
-            && !line.elastic.iter().any(unequal)
-            && state.traction.fits()
+        line.fits(n, components) && state.history.friction.fits(n * line.directions()) && state.traction.fits()
     }
 
     fn decisions(&self, state: &ContactState, mut into: &mut dyn Hasher) {

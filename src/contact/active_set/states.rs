@@ -118,7 +118,7 @@ fn stuck_state(line: &ContactLine, i: usize, tolerance: f64) -> NodeStatus {
 
 /// State of a node that has slipped: it sticks where friction no longer opposes the slip.
 fn slipping_state(line: &ContactLine, i: usize, slipping: NodeStatus, tolerance: f64) -> NodeStatus {
-    let opposes = slipping.friction_direction() * line.state.slip[i] <= tolerance;
+    let opposes = slipping.friction_direction() * line.state.slip[0][i] <= tolerance;
     if opposes || line.friction(i) == 0.0 { slipping } else { NodeStatus::Stick }
 }
 
@@ -212,19 +212,6 @@ fn is_overloaded(line: &ContactLine) -> bool {
 pub(super) fn sticks(line: &ContactLine) -> bool {
     let rate = line.problem.time.a0 * line.state.surface.iter().map(|u| u.amax()).fold(0.0, f64::max);
     let round_off = SLIP_ROUND_OFF[0] * line.speed() + SLIP_ROUND_OFF[1] * rate + SLIP_ROUND_OFF[2];
-    let stuck = line.state.status.iter().zip(&line.state.slip).filter(|(status, _)| status.is_stuck());
+    let stuck = line.state.status.iter().zip(&line.state.slip[0]).filter(|(status, _)| status.is_stuck());
     stuck.map(|(_, slip)| slip.abs()).fold(0.0, f64::max) <= round_off
-}
-
-/// Mean slip velocity of the closed nodes [m/s], weighted with their normal forces. It is that of the friction law,
-/// with upwind differences, which vanishes where nodes stick.
-pub(super) fn mean_slip(line: &ContactLine) -> f64 {
-    let (mut sum, mut load) = (0.0, 0.0);
-    for (i, status) in line.state.status.iter().enumerate() {
-        let weight = line.normal(i).max(0.0);
-        load += weight;
-        // The rest of the slip at stuck nodes is round-off.
-        sum += if status.is_stuck() { 0.0 } else { weight * line.state.slip[i] };
-    }
-    if load > 0.0 { sum / load } else { 0.0 }
 }

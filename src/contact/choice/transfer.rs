@@ -1,7 +1,7 @@
 //! From points to a grid and back: both describe the same surfaces, and what the slip of the next step refers to, the
 //! tangential displacement at the last two times, goes over as a function of x.
 
-use crate::contact::line::{AcrossNodes, ContactGrid, FrictionHistory, GridState, LineHistory, NodeStatus};
+use crate::contact::line::{ContactGrid, FrictionHistory, GridState, LineHistory, NodeStatus};
 use crate::contact::series::chebyshev::TERMS;
 use crate::contact::series::constants::Constants;
 use crate::contact::series::tables::{POWER, PRESSURE};
@@ -63,23 +63,23 @@ pub(super) fn to_grid(
     };
     state.status = grid.x.iter().map(|&x| status(x)).collect();
     let past = |k: usize, x: f64| patch.past[k].at(&[x], (patch.kernel.tangential.factor, None), &constants.points)[0];
-    state.tangential_gap = grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect();
+    state.moved[0] = grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect();
     let closed = |i: usize| status(grid.x[i]).is_active();
     let force = |i: usize| if closed(i) { patch.tractions.shear(&[grid.x[i]])[0] * grid.width(i) } else { 0.0 };
     let friction = &from.history.friction;
     let span = duration(&friction.force, &friction.impulse);
     let slips = |i: usize| status(grid.x[i]).friction_direction() != 0.0;
     let slip = |i: usize| if slips(i) { traction.slip.at(grid.x[i]) } else { 0.0 };
-    state.slip = (0..grid.len()).map(slip).collect();
+    state.slip[0] = (0..grid.len()).map(slip).collect();
     if friction.fits(2 * POWER) {
-        state.across = across(patch, traction, grid, &closed, &slips);
+        take_across(state, (patch, traction), grid, &closed, &slips);
     }
     target.history.rim_angle = from.history.rim_angle;
-    let forces_of_all: Vec<f64> = (0..grid.len()).map(force).chain(state.across.force.iter().copied()).collect();
+    let forces_of_all: Vec<f64> = (0..grid.len()).map(force).chain(state.lateral.iter().copied()).collect();
     target.history.friction = FrictionHistory {
         impulse: forces_of_all.iter().map(|force| span * force).collect(),
         force: forces_of_all,
-        slip: state.slip.iter().chain(&state.across.slip).copied().collect(),
+        slip: state.slip.iter().flatten().copied().collect(),
         slope_power: friction.slope_power,
         slope_work: friction.slope_work,
     };
@@ -92,14 +92,14 @@ pub(super) fn to_grid(
     Some(target)
 }
 
-/// Lateral part of a line at the nodes that are `closed`, and of those that slip.
-fn across(
-    patch: &SeriesState,
-    traction: &Traction,
+/// Takes the lateral part of a line at the nodes that are `closed`, and of those that slip.
+fn take_across(
+    state: &mut GridState,
+    (patch, traction): (&SeriesState, &Traction),
     grid: &ContactGrid,
     closed: &impl Fn(usize) -> bool,
     slips: &impl Fn(usize) -> bool,
-) -> AcrossNodes {
+) {
     let force =
         |i: usize| if closed(i) { patch.tractions.lateral.density(&[grid.x[i]])[0] * grid.width(i) } else { 0.0 };
     let slip = |i: usize| if slips(i) { traction.lateral_slip.at(grid.x[i]) } else { 0.0 };
@@ -107,12 +107,9 @@ fn across(
         Past::Series(past) => past.across(&[x], past.share)[0],
         past => past.across(&[x], 0.0)[0],
     };
-    AcrossNodes {
-        force: (0..grid.len()).map(force).collect(),
-        slip: (0..grid.len()).map(slip).collect(),
-        gap: grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect(),
-        widened: Vec::new(),
-    }
+    state.lateral = (0..grid.len()).map(force).collect();
+    state.slip[1] = (0..grid.len()).map(slip).collect();
+    state.moved[1] = grid.x.iter().map(|&x| History { now: past(0, x), before: past(1, x), rate: 0.0 }).collect();
 }
 
 /// Displacements of a body at all nodes, but for a constant and the small strains under pressure.
@@ -163,7 +160,7 @@ fn on_points(
     let upstream = upstream(&from.traction);
     let x = constants.of_points.tractions.map(|t| pressure.centre + upstream * pressure.half_width * t);
     let next = |x: f64| grid.x.partition_point(|node| *node < x - 0.5 * grid.spacing).min(grid.len() - 1);
-    let sideways = !state.across.force.is_empty();
+    let sideways = state.directions() > 1;
     let direction = |x: f64| state.status[next(x)].friction_direction();
     let directions = x.map(|x| if sideways { direction(x).abs() as i8 } else { direction(x) as i8 });
     let series = |shear: &Piecewise| {
@@ -201,7 +198,7 @@ pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &Contac
     let mut pressure = Arch { centre, half_width, count: PRESSURE, ..Arch::default() };
     pressure.terms[0] = 2.0 * load / (PI * half_width);
     let side = upstream(traction);
-    let sideways = !state.across.force.is_empty();
+    let sideways = state.directions() > 1;
     let tractions = match share(state, side).filter(|_| !sideways) {
         Some((share, direction)) => {
             let mut stick = Arch::default();
@@ -221,7 +218,7 @@ pub(super) fn to_points(constants: &Constants, grid: &ContactGrid, from: &Contac
     let history = |before: bool| {
         let value = |h: &History| if before { h.before } else { h.now };
         let values = |gap: &[History]| gap.get(even.clone()).unwrap_or_default().iter().map(value).collect();
-        let (along, across) = (values(&state.tangential_gap), values(&state.across.gap));
+        let [along, across] = state.moved.each_ref().map(|moved| values(moved));
         Past::Grid(GridPast { first: grid.x[even.start], spacing: grid.spacing, along, across })
     };
     let friction = friction_history(constants, &tractions, side, from);

@@ -4,19 +4,12 @@
 //! ([`crate::contact::flexibility`]); the lateral motion of the hub and the spin add to the slip.
 
 use super::alone::Alone;
-use super::contact_line::{ContactLine, LineAcross, LineIterate};
-use crate::contact::flexibility::at;
-use crate::contact::line::state::AcrossNodes;
+use super::contact_line::ContactLine;
 
 impl ContactLine<'_> {
-    /// True if tractions and slips have a lateral part.
-    pub fn is_sideways(&self) -> bool {
-        !self.state.across.force.is_empty()
-    }
-
     /// Lateral force on the wheel at candidate `i` [N/m].
     pub fn lateral(&self, i: usize) -> f64 {
-        self.state.across.force.get(i).copied().unwrap_or(0.0)
+        self.state.lateral.get(i).copied().unwrap_or(0.0)
     }
 
     /// Friction on the wheel at candidate `i`, along and across [N/m].
@@ -46,81 +39,50 @@ impl ContactLine<'_> {
         for i in 0..grid.len() {
             let (mut slip, mut centred) = (0.0, 0.0);
             if self.state.status[i].is_active() {
-                let known = self.state.across.gap[i].offset(&problem.time);
+                let known = self.state.moved[1][i].offset(&problem.time);
                 let still = self.traction.rigid.lateral + spin * grid.x[i] + known;
-                let (node, displaced) = (grid.component(i) / 2, &self.iterate.across.displaced);
-                let rigid = still + problem.time.a0 * self.moved_across(i) - 0.5 * speed * self.stretch_across(i);
+                let (node, displaced) = (grid.component(i) / 2, &self.iterate.displaced);
+                let rigid = still + problem.time.a0 * self.moved(1, i) - 0.5 * speed * self.stretch_by_lines(1, i);
                 let upwind = self.stencil(i, self.iterate.upwind.row(i), to_right);
                 let strain: f64 = upwind.iter().map(|(port, weight)| weight * displaced[port / 2]).sum();
                 slip = rigid - 0.5 * speed * strain;
                 centred = rigid - 0.5 * speed * (displaced[node + 1] - displaced[node - 1]) / grid.span(i);
             }
-            self.state.across.slip[i] = slip;
-            self.iterate.across.centred_slip[i] = centred;
+            self.state.slip[1][i] = slip;
+            self.iterate.centred_slip[1][i] = centred;
         }
     }
 
     /// Takes the displacements at all nodes by the line's own lateral forces.
     fn displace_across(&mut self) {
         let Self { grid, problem, iterate, state, kernel, .. } = self;
-        let LineIterate { across, displaced: body, .. } = &mut **iterate;
-        across.centred_slip.resize(grid.len(), 0.0);
-        across.displaced.clear();
-        across.displaced.resize(grid.components() / 2, 0.0);
-        let first = grid.component(0) / 2;
-        Alone { kernel: *kernel, grid }.displace(2, first, &state.across.force, body);
-        across.displaced.iter_mut().zip(&*body).for_each(|(both, body)| *both = 2.0 * body);
-        for (i, force) in state.across.force.iter().enumerate().filter(|_| problem.layer > 0.0) {
-            across.displaced[first + i] += force * problem.layer / grid.width(i);
+        let (first, displaced) = (grid.component(0) / 2, &mut iterate.displaced);
+        Alone { kernel: *kernel, grid }.displace(2, first, &state.lateral, displaced);
+        displaced.iter_mut().for_each(|moved| *moved *= 2.0);
+        for (i, force) in state.lateral.iter().enumerate().filter(|_| problem.layer > 0.0) {
+            displaced[first + i] += force * problem.layer / grid.width(i);
         }
     }
 
-    /// Lateral displacement of the wheel less that of the rail at candidate `i` \[m].
-    fn moved_across(&self, i: usize) -> f64 {
-        let by_lines = |powers| at(&self.iterate.across.field.displacement, &powers);
-        let by_lines = self.problem.patch.map_or(0.0, |patch| by_lines(patch.powers(self.grid.x[i])));
-        self.iterate.across.displaced[self.grid.component(i) / 2] + by_lines
-    }
-
-    /// Slope along the line of the lateral displacement by all lines of the patch at candidate `i` \[1].
-    fn stretch_across(&self, i: usize) -> f64 {
-        let Some(patch) = self.problem.patch else { return 0.0 };
-        at(&self.iterate.across.field.strain, &patch.powers(self.grid.x[i])) / patch.half_length
-    }
-
-    /// Moves the history of the lateral displacements on; returns the elastic energy of the lateral forces [J/m].
-    pub(super) fn remember_across(&mut self) -> f64 {
-        let time = self.problem.time;
-        for i in 0..self.state.across.gap.len() {
-            let moved = self.moved_across(i);
-            self.state.across.gap[i].reach(&time, moved);
-        }
-        self.remember_width(1);
-        let (first, LineAcross { displaced, moments, field, .. }) = (self.grid.component(0) / 2, &self.iterate.across);
-        let own = self.state.across.force.iter().zip(&displaced[first.min(displaced.len())..]);
-        let by_lines = moments.iter().zip(&field.displacement).map(|(moment, by)| moment * by);
-        0.5 * (own.map(|(force, moved)| force * moved).sum::<f64>() + by_lines.sum::<f64>())
-    }
-
-    /// Length of the mean slip velocity along and across over the closed nodes, by their normal forces [m/s]: it vanishes
-    /// where they stick.
-    pub fn slip_speed(&self) -> f64 {
-        let (mut sum, mut load) = ([0.0; 2], 0.0);
+    /// Mean slip velocities along and across of the closed nodes [m/s], weighted with their normal forces. They are those of
+    /// the friction law, with upwind differences, which vanish where nodes stick.
+    pub fn mean_slips(&self) -> [f64; 2] {
+        let (mut sums, mut load) = ([0.0; 2], 0.0);
         for (i, status) in self.state.status.iter().enumerate() {
             let weight = self.normal(i).max(0.0);
             load += weight;
+            // The rest of the slip at stuck nodes is round-off.
             if !status.is_stuck() {
-                sum[0] += weight * self.state.slip[i];
-                sum[1] += weight * self.state.across.slip.get(i).copied().unwrap_or(0.0);
+                let slips = sums.iter_mut().zip(&self.state.slip);
+                slips.for_each(|(sum, slip)| *sum += weight * slip.get(i).copied().unwrap_or(0.0));
             }
         }
-        if load > 0.0 { libm::hypot(sum[0] / load, sum[1] / load) } else { 0.0 }
+        if load > 0.0 { sums.map(|sum| sum / load) } else { sums }
     }
 
     /// Moment of friction about the vertical through the centre of load, `z F_x − Σ x F_z` \[N].
     pub(super) fn spin_moment(&self) -> f64 {
-        let AcrossNodes { force, .. } = &self.state.across;
-        let turned: f64 = force.iter().zip(&self.grid.x).map(|(force, x)| force * x).sum();
+        let turned: f64 = self.state.lateral.iter().zip(&self.grid.x).map(|(force, x)| force * x).sum();
         let along: f64 = (0..self.grid.len()).map(|i| self.tangential(i)).sum();
         self.problem.position * along - turned
     }

@@ -46,12 +46,12 @@ pub struct Before {
 pub struct LineIterate {
     /// Forces of all lines.
     pub all: PortForces,
-    /// Moments of the line's own tangential forces with the powers of the place [N/m], and what the forces of all lines
-    /// of the patch do to it.
-    pub moments: ByPowers,
-    pub field: Field,
-    /// Derivatives of these displacements by the size of the line, along and across, see [`InPatch::growths`](crate::contact::InPatch::growths).
-    pub growth: [ByPowers; 2],
+    /// Moments of the line's own forces along and across with the powers of the place [N/m], and what the forces of all lines
+    /// of the patch do to it in both directions.
+    pub moments: [ByPowers; 2],
+    pub fields: [Field; 2],
+    /// Derivatives of these displacements by the size of the line, see [`InPatch::growths`](crate::contact::InPatch::growths).
+    pub growths: [ByPowers; 2],
     /// Rim angle as an affine function of the forces.
     pub rim: RimAngleRow,
     /// Upwind differences of the slip.
@@ -63,28 +63,13 @@ pub struct LineIterate {
     /// Height at the candidates that the flexibility of the line alone would have if it were the same in both
     /// directions, less that which it has \[m]; empty: it is.
     pub lift: Vec<f64>,
-    /// Slip velocity of the candidates with centred differences [m/s]: it dissipates. The upwind one counts its own
-    /// numerical dissipation.
-    pub centred_slip: Vec<f64>,
+    /// Slip velocity of the candidates along and across with centred differences [m/s]: it dissipates. The upwind one counts
+    /// its own numerical dissipation.
+    pub centred_slip: [Vec<f64>; 2],
     /// Displacement by the own flexibility.
     pub own: OwnDisplacement,
-    /// Displacement of one body by lateral forces \[m].
-    pub displaced: Vec<f64>,
-    /// Lateral part.
-    pub across: LineAcross,
-}
-
-/// Lateral part of a line in the present iterate.
-#[derive(Default)]
-pub struct LineAcross {
     /// Displacement of the wheel less that of the rail by the line's own lateral forces at all nodes \[m].
     pub displaced: Vec<f64>,
-    /// Slip velocity of the candidates with centred differences [m/s]: it dissipates.
-    pub centred_slip: Vec<f64>,
-    /// Moments of the lateral forces with the powers of the place [N/m], and what the forces of all lines of the patch do
-    /// to this one across.
-    pub moments: ByPowers,
-    pub field: Field,
 }
 
 impl LineScratch {
@@ -189,7 +174,7 @@ impl<'a> ContactLine<'a> {
         iterate.lift.clear();
         iterate.overlap.clear();
         iterate.overlap.resize(grid.len(), 0.0);
-        iterate.centred_slip.resize(grid.len(), 0.0);
+        iterate.centred_slip.iter_mut().for_each(|slip| slip.resize(grid.len(), 0.0));
         let given = &*given;
         let frame = RimFrame { grid, radius: problem.surfaces.radius, sagitta: &given.sagitta, rim_angle: 0.0 };
         Self {

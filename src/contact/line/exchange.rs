@@ -42,23 +42,14 @@ pub fn forces(lines: &mut [ContactLine]) {
     fields(lines);
 }
 
-/// Gives lines of a patch what the tangential forces of all of them do.
+/// Gives lines of a patch what the forces of all of them along and across do.
 fn fields(lines: &mut [ContactLine]) {
     for line in &mut *lines {
-        let forces = (0..line.grid.len()).map(|i| (i, line.tangential(i)));
-        line.iterate.moments = line.moments(forces);
-        let lateral = (0..line.state.across.force.len()).map(|i| (i, line.lateral(i)));
-        line.iterate.across.moments = line.moments(lateral);
+        line.iterate.moments = [0, 1].map(|direction| line.moments_of_shear(direction));
     }
     for k in 0..lines.len() {
         let Some(patch) = lines[k].problem.patch else { return };
-        if lines[k].is_sideways() {
-            let moments = lines.iter().map(|line| [&line.iterate.moments, &line.iterate.across.moments]);
-            let [along, across] = patch.fields(moments);
-            (lines[k].iterate.field, lines[k].iterate.across.field) = (along, across);
-        } else {
-            lines[k].iterate.field = patch.field(lines.iter().map(|line| &line.iterate.moments));
-        }
+        lines[k].iterate.fields = patch.fields(lines.iter().map(|line| line.iterate.moments));
     }
 }
 
@@ -66,7 +57,6 @@ fn fields(lines: &mut [ContactLine]) {
 pub fn growths(lines: &mut [ContactLine]) {
     for k in 0..lines.len() {
         let LineProblem { patch: Some(patch), size: Some(_), .. } = lines[k].problem else { continue };
-        let moments = lines.iter().map(|line| [&line.iterate.moments, &line.iterate.across.moments]);
-        lines[k].iterate.growth = patch.growths(moments);
+        lines[k].iterate.growths = patch.growths(lines.iter().map(|line| line.iterate.moments));
     }
 }

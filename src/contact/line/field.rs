@@ -1,26 +1,46 @@
-//! Displacement of a line by the tangential forces of all lines of its patch.
+//! Displacements of a line along and across, of which those of all lines of its patch are polynomials.
 
-use super::contact_line::ContactLine;
+use super::contact_line::{ContactLine, LineIterate};
 use crate::contact::flexibility::{ByMoments, ByPowers, at, slip_of_field};
 use crate::contact::problem::LineProblem;
 use crate::multistep::History;
 
 impl ContactLine<'_> {
-    /// Moments of tangential forces [N/m] at candidates with the powers of their places.
-    pub fn moments(&self, forces: impl Iterator<Item = (usize, f64)>) -> ByPowers {
+    /// Moments of the line's own forces along (0) or across (1) with the powers of their places [N/m].
+    pub fn moments_of_shear(&self, direction: usize) -> ByPowers {
         let mut moments = ByPowers::default();
-        let Some(patch) = self.problem.patch else { return moments };
-        for (i, force) in forces.filter(|(_, force)| *force != 0.0) {
-            let powers = patch.powers(self.grid.x[i]);
-            moments.iter_mut().zip(powers).for_each(|(moment, power)| *moment += force * power);
+        let Some(patch) = self.problem.patch.filter(|_| direction < self.state.directions()) else { return moments };
+        for i in 0..self.grid.len() {
+            let force = self.shear(i)[direction];
+            if force != 0.0 {
+                let powers = patch.powers(self.grid.x[i]);
+                moments.iter_mut().zip(powers).for_each(|(moment, power)| *moment += force * power);
+            }
         }
         moments
     }
 
-    /// Displacement of the wheel less that of the rail at a candidate \[m].
-    pub fn moved_by_lines(&self, i: usize) -> f64 {
-        let moved = |powers| at(&self.iterate.field.displacement, &powers);
+    /// Displacement of the wheel less that of the rail at a candidate along (0) or across (1) by the lines of the patch \[m].
+    pub fn moved_by_lines(&self, direction: usize, i: usize) -> f64 {
+        let moved = |powers| at(&self.iterate.fields[direction].displacement, &powers);
         self.problem.patch.map_or(0.0, |patch| moved(patch.powers(self.grid.x[i])))
+    }
+
+    /// Slope along the line of that displacement \[1]: half of it is the strain of the wheel, the other half that of the rail.
+    pub fn stretch_by_lines(&self, direction: usize, i: usize) -> f64 {
+        let Some(patch) = self.problem.patch else { return 0.0 };
+        at(&self.iterate.fields[direction].strain, &patch.powers(self.grid.x[i])) / patch.half_length
+    }
+
+    /// Displacement of the wheel less that of the rail at a candidate along (0) or across (1) \[m].
+    pub fn moved(&self, direction: usize, i: usize) -> f64 {
+        let port = self.grid.component(i);
+        let own = match direction {
+            0 => self.state.surface[0][port] - self.state.surface[1][port],
+            _ => self.iterate.displaced[port / 2],
+        };
+        let by_lines = self.moved_by_lines(direction, i);
+        if direction == 0 { own + by_lines + self.moved_by_layer(port) } else { own + by_lines }
     }
 
     /// Displacement of the wheel less that of the rail by an elastic layer between them at a tangential port \[m].
@@ -40,36 +60,40 @@ impl ContactLine<'_> {
         (0..self.grid.len()).map(energy).sum()
     }
 
-    /// Strain of the wheel at a candidate \[1]; that of the rail is the opposite.
-    pub fn stretch_by_lines(&self, i: usize) -> f64 {
-        let Some(patch) = self.problem.patch else { return 0.0 };
-        0.5 * at(&self.iterate.field.strain, &patch.powers(self.grid.x[i])) / patch.half_length
-    }
-
-    /// Moves the history of what becomes smaller where the line becomes wider on, along (0) or across (1), see
-    /// [`GridState::widened`](super::state::GridState).
-    pub(super) fn remember_width(&mut self, direction: usize) {
-        let LineProblem { time, patch: Some(patch), size: Some(_), .. } = *self.problem else { return };
-        let mut widened = std::mem::take(match direction {
-            0 => &mut self.state.widened,
-            _ => &mut self.state.across.widened,
-        });
+    /// Moves the history of the displacement along (0) or across (1) on, and that of its part that becomes smaller where the
+    /// line becomes wider.
+    pub fn remember(&mut self, direction: usize) {
+        let time = self.problem.time;
+        for i in 0..self.grid.len() {
+            let moved = self.moved(direction, i);
+            self.state.moved[direction][i].reach(&time, moved);
+        }
+        let LineProblem { patch: Some(patch), size: Some(_), .. } = *self.problem else { return };
+        let widened = &mut self.state.widened[direction];
         let begins = widened.is_empty();
         widened.resize(self.grid.len(), History::default());
         for (i, history) in widened.iter_mut().enumerate() {
             let port = self.grid.component(i);
             let own = match direction {
                 0 => 2.0 * self.iterate.own.along[port],
-                _ => 2.0 * self.iterate.displaced[port / 2],
+                _ => self.iterate.displaced[port / 2],
             };
-            let growth = at(&self.iterate.growth[direction], &patch.powers(self.grid.x[i]));
+            let growth = at(&self.iterate.growths[direction], &patch.powers(self.grid.x[i]));
             let value = own - 2.0 * growth;
             if begins { *history = History::constant(value) } else { history.reach(&time, value) }
         }
-        *match direction {
-            0 => &mut self.state.widened,
-            _ => &mut self.state.across.widened,
-        } = widened;
+    }
+
+    /// Elastic energy of the shear along (0) or across (1) in the lines of the patch, and across in the line itself [J/m].
+    pub fn energy_of_shear(&self, direction: usize) -> f64 {
+        let LineIterate { moments, fields, displaced, .. } = &*self.iterate;
+        let by_lines = moments[direction].iter().zip(&fields[direction].displacement).map(|(moment, by)| moment * by);
+        let first = (self.grid.component(0) / 2).min(displaced.len());
+        let own = match direction {
+            0 => 0.0,
+            _ => self.state.lateral.iter().zip(&displaced[first..]).map(|(force, moved)| force * moved).sum(),
+        };
+        0.5 * (own + by_lines.sum::<f64>())
     }
 
     /// Slip [m/s] as a polynomial of the place by unit moments of the line number `by` of the patch; `None`: there is

@@ -21,37 +21,30 @@ fn finish_line(line: &mut ContactLine) {
     let ContactLine { problem, traction, .. } = line;
     let power = traction.friction.dissipate(friction, work, problem.duration);
     line.traction.resultant = line.resultant();
-    if line.is_sideways() {
-        line.traction.friction.slip_speed = line.slip_speed();
+    if line.state.directions() > 1 {
+        let [along, across] = line.mean_slips();
+        line.traction.friction.slip_speed = libm::hypot(along, across);
         line.traction.spin_moment = line.spin_moment();
     }
     let ContactLine { grid, given, iterate, state, traction, .. } = line;
-    let LineIterate { overlap, centred_slip, across, .. } = &**iterate;
+    let LineIterate { overlap, centred_slip, .. } = &**iterate;
     observe::overlap(grid, state, overlap, traction);
     traction.under_film = observe::under_film(grid, state, &given.strength);
     let limits = &given.strength.limit;
     traction.yielding.springing_work = observe::springing_work(grid, overlap, limits, &state.forces);
     let pressures = limits.iter().enumerate().map(|(i, force)| force / grid.width(i));
     let limit = pressures.reduce(f64::max).unwrap_or(f64::INFINITY);
-    observe::read_off(grid, [power, limit], state, [centred_slip, &across.centred_slip], traction);
+    observe::read_off(grid, [power, limit], state, [&centred_slip[0], &centred_slip[1]], traction);
 }
 
 /// Moves the histories of displacements and rim angle on, and takes the energy that lines have by each other.
 fn remember(line: &mut ContactLine) {
-    let time = line.problem.time;
-    for i in 0..line.grid.len() {
-        let (port, [wheel, rail]) = (line.grid.component(i), &line.state.surface);
-        let relative = wheel[port] - rail[port] + line.moved_by_lines(i) + line.moved_by_layer(port);
-        line.state.tangential_gap[i].reach(&time, relative);
+    *line.energy = line.energy_of_layer();
+    for direction in 0..line.state.directions() {
+        line.remember(direction);
+        *line.energy += line.energy_of_shear(direction);
     }
-    line.remember_width(0);
-    line.history.rim_angle.reach(&time, line.frame.rim_angle);
-    let LineIterate { moments, field, .. } = &*line.iterate;
-    let by_lines = moments.iter().zip(&field.displacement).map(|(moment, by)| moment * by).sum::<f64>();
-    *line.energy = 0.5 * by_lines + line.energy_of_layer();
-    if line.is_sideways() {
-        *line.energy += line.remember_across();
-    }
+    line.history.rim_angle.reach(&line.problem.time, line.frame.rim_angle);
 }
 
 /// Takes the loads on the bodies, the work of the pulls among them, and the energy of the line's own flexibility under them.

@@ -61,8 +61,8 @@ impl KnownPart {
             problem.surfaces.round_gap(x, &problem.placement) - swollen
         }));
         self.slip_offset.clear();
-        self.slip_offset.extend(state.tangential_gap.iter().map(|h| h.offset(&problem.time)));
-        self.strength.find(grid, &problem.limits, &state.forces, &state.across.force);
+        self.slip_offset.extend(state.moved[0].iter().map(|h| h.offset(&problem.time)));
+        self.strength.find(grid, &problem.limits, &state.forces, &state.lateral);
         self.find_unevenness(grid, problem);
     }
 

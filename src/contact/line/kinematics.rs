@@ -21,7 +21,7 @@ impl ContactLine<'_> {
         let [wheel, rail] = &self.state.surface;
         let stencil = self.stencil(i, row, to_right);
         let by_layer = stencil.iter().map(|(port, weight)| weight * self.moved_by_layer(*port)).sum::<f64>();
-        let by_lines = self.stretch_by_lines(i) + 0.5 * by_layer;
+        let by_lines = 0.5 * self.stretch_by_lines(0, i) + 0.5 * by_layer;
         [
             stencil.iter().map(|(port, weight)| weight * self.frame.tangential(wheel, *port)).sum::<f64>() + by_lines,
             stencil.iter().map(|(port, weight)| weight * rail[*port]).sum::<f64>() - by_lines,
@@ -34,7 +34,7 @@ impl ContactLine<'_> {
         let [wheel, rail] = &self.state.surface;
         let turned = self.frame.tangential(wheel, port + 2) - self.frame.tangential(wheel, port - 2);
         let by_layer = self.moved_by_layer(port + 2) - self.moved_by_layer(port - 2);
-        let by_lines = self.stretch_by_lines(i) + 0.5 * by_layer / self.grid.span(i);
+        let by_lines = 0.5 * self.stretch_by_lines(0, i) + 0.5 * by_layer / self.grid.span(i);
         [turned / self.grid.span(i) + by_lines, self.grid.slope(rail, i, 0) - by_lines]
     }
 
@@ -66,18 +66,17 @@ impl ContactLine<'_> {
             let excess = || self.state.forces[port + 1] - self.given.strength.limit[i];
             self.iterate.overlap[i] = if self.state.yielded[i] { self.creep(i) * excess() } else { 0.0 };
             if self.state.status[i].is_active() {
-                let relative = u_c[port] - u_p[port] + self.moved_by_lines(i) + self.moved_by_layer(port);
-                let dynamic = problem.time.a0 * relative + self.given.slip_offset[i];
+                let dynamic = problem.time.a0 * self.moved(0, i) + self.given.slip_offset[i];
                 let slip = |[d_c, d_p]: [f64; 2]| v * (1.0 + d_p) - v_c - rim * d_c + dynamic;
                 let upwind = self.stretches(i, self.iterate.upwind.row(i), to_right);
-                self.iterate.centred_slip[i] = slip(self.centred_stretches(i));
-                (self.state.slip[i], self.state.gap[i]) = (slip(upwind), 0.0);
+                self.iterate.centred_slip[0][i] = slip(self.centred_stretches(i));
+                (self.state.slip[0][i], self.state.gap[i]) = (slip(upwind), 0.0);
             } else {
-                (self.state.slip[i], self.iterate.centred_slip[i]) = (0.0, 0.0);
+                (self.state.slip[0][i], self.iterate.centred_slip[0][i]) = (0.0, 0.0);
                 self.state.gap[i] = self.given.gap[i] + self.frame.normal(u_c, i) - u_p[port + 1] + height;
             }
         }
-        if self.is_sideways() {
+        if self.state.directions() > 1 {
             self.evaluate_across();
         }
     }
@@ -177,7 +176,7 @@ impl ContactLine<'_> {
             sum.rotation -= arm_t * t + arm_n * n;
         }
         sum.rotation -= self.problem.radius() * self.iterate.retarded.force.iter().sum::<f64>();
-        sum.lateral = self.state.across.force.iter().sum();
+        sum.lateral = self.state.lateral.iter().sum();
         sum
     }
 }

@@ -38,4 +38,4 @@ pub(super) mod zone;
 
 pub use grid::ContactGrid;
 pub use history::{FrictionHistory, LineHistory};
-pub use state::{AcrossNodes, GridState, NodeStatus, for_each_patch};
+pub use state::{GridState, NodeStatus, for_each_patch};

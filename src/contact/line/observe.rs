@@ -30,7 +30,7 @@ pub fn read_off(
 ) {
     let forces = &state.forces;
     let tangential = |i: usize| forces[grid.component(i)];
-    let lateral = |i: usize| state.across.force.get(i).copied().unwrap_or(0.0);
+    let lateral = |i: usize| state.lateral.get(i).copied().unwrap_or(0.0);
     let shear = |i: usize| if lateral(i) == 0.0 { tangential(i).abs() } else { libm::hypot(tangential(i), lateral(i)) };
     let normal = |i: usize| forces[grid.component(i) + 1];
     traction.pressure_max = pressure_peak(grid, &state.yielded, normal, limit);
@@ -54,7 +54,7 @@ pub fn read_off(
     over_patches(grid, status, patches, |i| normal(i) / grid.width(i), &mut traction.pressure);
     over_patches(grid, status, patches, |i| tangential(i) / grid.width(i), &mut traction.shear);
     over_patches(grid, status, patches, |i| centred_slip[i], &mut traction.slip);
-    if !state.across.force.is_empty() {
+    if state.directions() > 1 {
         over_patches(grid, status, patches, |i| lateral(i) / grid.width(i), &mut traction.lateral_shear);
         over_patches(grid, status, patches, |i| centred_across[i], &mut traction.lateral_slip);
     }
@@ -62,8 +62,8 @@ pub fn read_off(
     // stuck nodes is round-off: it would place the heat of a contact that sticks everywhere at random.
     let density = |i: usize| match status[i] {
         NodeStatus::SlipForward | NodeStatus::SlipBackward => {
-            let across = state.across.slip.get(i).map_or(0.0, |slip| lateral(i) * slip);
-            (-(tangential(i) * state.slip[i] + across) / grid.width(i)).max(0.0)
+            let across = state.slip[1].get(i).map_or(0.0, |slip| lateral(i) * slip);
+            (-(tangential(i) * state.slip[0][i] + across) / grid.width(i)).max(0.0)
         }
         NodeStatus::Stick | NodeStatus::Open => 0.0,
     };

@@ -13,8 +13,8 @@ impl ContactLine<'_> {
         let rest = self.slope_power() - self.expansion();
         let Self { grid, problem, iterate, history, state, .. } = self;
         let of_node = |place: usize| match place.checked_sub(grid.len()) {
-            Some(i) => [state.across.force[i], iterate.across.centred_slip[i]],
-            None => [state.forces[grid.component(place)], iterate.centred_slip[place]],
+            Some(i) => [state.lateral[i], iterate.centred_slip[1][i]],
+            None => [state.forces[grid.component(place)], iterate.centred_slip[0][place]],
         };
         history.friction.advance(&problem.time, rest, of_node)
     }

@@ -152,7 +152,7 @@ impl GridState {
     fn take_states(&mut self, x: &[f64], ratio: f64) {
         if self.forces.iter().any(|force| *force != 0.0) {
             self.forces *= ratio;
-            self.across.force.iter_mut().for_each(|force| *force *= ratio);
+            self.lateral.iter_mut().for_each(|force| *force *= ratio);
             return;
         }
         let touches = |place: f64| {
@@ -166,16 +166,15 @@ impl GridState {
     /// Displacements of before go over as functions of x; those by the lines of a patch whose width has changed become
     /// smaller by the factor `kept`, see [`Self::widened`].
     fn take_histories(&mut self, candidates: &Interpolation, kept: f64) {
-        let parts = [(&mut self.tangential_gap, &mut self.widened), (&mut self.across.gap, &mut self.across.widened)];
-        for (gap, widened) in parts {
-            candidates.histories(gap);
+        for (moved, widened) in self.moved.iter_mut().zip(&mut self.widened) {
+            candidates.histories(moved);
             candidates.histories(widened);
             if kept == 1.0 || !kept.is_finite() {
                 continue;
             }
-            for (gap, widened) in gap.iter_mut().zip(widened) {
-                gap.now += (kept - 1.0) * widened.now;
-                gap.before += (kept - 1.0) * widened.before;
+            for (moved, widened) in moved.iter_mut().zip(widened) {
+                moved.now += (kept - 1.0) * widened.now;
+                moved.before += (kept - 1.0) * widened.before;
                 *widened =
                     History { now: kept * widened.now, before: kept * widened.before, rate: kept * widened.rate };
             }

@@ -98,9 +98,7 @@ impl ContactLine<'_> {
         let [stretch_wheel, stretch_rail] = upwind.stretches;
         let (travel, rotation) = (1.0 + stretch_rail, -problem.radius() * (1.0 + stretch_wheel));
         let mut motions = PerAxis { travel, rotation, ..PerAxis::default() };
-        if self.is_sideways() {
-            motions.add(-problem.position, PerAxis::from_fn(|axis| self.spin.by(axis)));
-        }
+        motions.add(-problem.position, PerAxis::from_fn(|axis| self.spin.by(axis)));
         constant += -v * stretch_rail + problem.radius() * self.traction.rigid.rotation * stretch_wheel;
         let ports = std::array::from_fn(|port| by_bodies[port]);
         (AffineRow { ports, angle: upwind.by_angle, motions, accelerations, constant }, upwind)

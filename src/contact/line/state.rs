@@ -63,7 +63,8 @@ pub fn for_each_patch(status: &[NodeStatus], mut f: impl FnMut(std::ops::Range<u
     }
 }
 
-/// States of the candidates of a line, with gaps and slips, and the history of their displacements.
+/// States of the candidates of a line, with gaps and slips, and the history of their displacements. Of quantities along and
+/// across the latter are empty where tractions and slips have no lateral part.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct GridState {
     /// Size of the nodes over those of the grid \[1].
@@ -74,79 +75,77 @@ pub struct GridState {
     pub status: Vec<NodeStatus>,
     /// Yielding of the candidates: true where the pressure of a closed pair is at its limit.
     pub yielded: Vec<bool>,
-    /// Slip velocity of the wheel relative to the rail at closed nodes as the friction law sees it, with upwind
-    /// differences; zero elsewhere [m/s].
-    pub slip: Vec<f64>,
+    /// Slip velocity of the wheel relative to the rail at closed nodes as the friction law sees it, along and across, with
+    /// upwind differences; zero elsewhere [m/s].
+    pub slip: [Vec<f64>; 2],
     /// Gap at open nodes, zero elsewhere \[m].
     pub gap: Vec<f64>,
-    /// Tangential displacement of the wheel less that of the rail, and its history \[m].
-    pub tangential_gap: Vec<History>,
+    /// Displacement of the wheel less that of the rail, along and across, and its history \[m].
+    pub moved: [Vec<History>; 2],
     /// Part of it that becomes smaller where a line becomes wider, and its history \[m]: the displacement goes down by as
     /// much as this does. It is that of the line's own logarithm less twice the growth of that by all lines
     /// ([`Between::growth`](crate::contact::flexibility::Between)); empty: the line is in no patch.
-    pub widened: Vec<History>,
+    pub widened: [Vec<History>; 2],
     /// Contact forces on the wheel, x and y of every node [N/m].
     pub forces: DVector<f64>,
+    /// Lateral forces on the wheel at the candidates [N/m].
+    pub lateral: Vec<f64>,
     /// Displacements of wheel and rail, x and y of every node \[m].
     pub surface: [DVector<f64>; 2],
     /// Pulls of hot layers at the candidates, on wheel and rail [N/m]; empty: there are none.
     pub pull: [Vec<f64>; 2],
     /// Elastic forces on wheel and rail, x and y of every node, and their histories [N/m]; empty: the line answers at once.
     pub elastic: [Vec<History>; 2],
-    /// Lateral part.
-    pub across: AcrossNodes,
 }
 
-/// Lateral part of the states of the candidates; empty where tractions and slips have none.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct AcrossNodes {
-    /// Lateral forces on the wheel [N/m].
-    pub force: Vec<f64>,
-    /// Lateral slip velocity of the wheel relative to the rail at closed nodes as the friction law sees it; zero elsewhere
-    /// [m/s].
-    pub slip: Vec<f64>,
-    /// Lateral displacement of the wheel less that of the rail, and its history \[m].
-    pub gap: Vec<History>,
-    /// Part of it that becomes smaller where a line becomes wider, see [`GridState::widened`].
-    pub widened: Vec<History>,
-}
-
-impl AcrossNodes {
-    /// Makes room for `n` candidates, of which further ones have had no force.
-    pub fn reach(&mut self, n: usize) {
-        self.force.resize(n, 0.0);
-        self.slip.resize(n, 0.0);
-        self.gap.resize(n, History::default());
-    }
-
-    /// True if it is empty or has `n` finite candidates.
-    pub fn fits(&self, n: usize) -> bool {
-        let lengths = [self.force.len(), self.slip.len(), self.gap.len()];
-        let widened = self.widened.is_empty() || self.widened.len() == n;
-        widened
-            && (lengths == [0; 3] || lengths == [n; 3])
-            && self.force.iter().chain(&self.slip).all(|value| value.is_finite())
-    }
+/// Becomes equal to another vector of each direction or body and keeps its memory.
+fn clone_each<T: Clone>(ours: &mut [Vec<T>; 2], others: &[Vec<T>; 2]) {
+    ours.iter_mut().zip(others).for_each(|(ours, other)| ours.clone_from(other));
 }
 
 impl GridState {
+    /// Directions in which tractions and slips are: 1, or 2 with a lateral part.
+    pub fn directions(&self) -> usize {
+        if self.lateral.is_empty() { 1 } else { 2 }
+    }
+
+    /// Makes room for a lateral part of `n` candidates, of which further ones have had no force.
+    pub fn reach_across(&mut self, n: usize) {
+        self.lateral.resize(n, 0.0);
+        self.slip[1].resize(n, 0.0);
+        self.moved[1].resize(n, History::default());
+    }
+
+    /// True if it is that of `n` candidates and of nodes with so many `components`, whose forces and slips are finite.
+    pub fn fits(&self, n: usize, components: usize) -> bool {
+        let along = [self.status.len(), self.yielded.len(), self.gap.len(), self.slip[0].len(), self.moved[0].len()];
+        let across = [self.lateral.len(), self.slip[1].len(), self.moved[1].len()];
+        let mut of_nodes = self.surface.iter().chain([&self.forces]);
+        let mut numbers = self.forces.iter().chain(&self.lateral).chain(self.slip.iter().flatten());
+        let none_or = |length: usize, n: usize| length == 0 || length == n;
+        along == [n; 5]
+            && (across == [0; 3] || across == [n; 3])
+            && of_nodes.all(|values| values.len() == components)
+            && numbers.all(|value| value.is_finite())
+            && [self.size, self.share].iter().all(|size| *size > 0.0 && size.is_finite())
+            && self.widened.iter().all(|widened| none_or(widened.len(), n))
+            && self.pull.iter().all(|pull| none_or(pull.len(), n))
+            && self.elastic.iter().all(|elastic| none_or(elastic.len(), components))
+    }
+
     /// Becomes equal to another state and keeps its memory.
     pub(crate) fn copy_from(&mut self, other: &Self) {
+        (self.size, self.share) = (other.size, other.share);
         self.status.clone_from(&other.status);
         self.yielded.clone_from(&other.yielded);
-        self.slip.clone_from(&other.slip);
         self.gap.clone_from(&other.gap);
-        self.tangential_gap.clone_from(&other.tangential_gap);
-        self.widened.clone_from(&other.widened);
-        (self.size, self.share) = (other.size, other.share);
+        self.lateral.clone_from(&other.lateral);
+        clone_each(&mut self.slip, &other.slip);
+        clone_each(&mut self.moved, &other.moved);
+        clone_each(&mut self.widened, &other.widened);
+        clone_each(&mut self.pull, &other.pull);
+        clone_each(&mut self.elastic, &other.elastic);
         copy(&mut self.forces, &other.forces);
         self.surface.iter_mut().zip(&other.surface).for_each(|(ours, theirs)| copy(ours, theirs));
-        self.pull.iter_mut().zip(&other.pull).for_each(|(ours, theirs)| ours.clone_from(theirs));
-        self.elastic.iter_mut().zip(&other.elastic).for_each(|(ours, theirs)| ours.clone_from(theirs));
-        let (across, other) = (&mut self.across, &other.across);
-        across.force.clone_from(&other.force);
-        across.slip.clone_from(&other.slip);
-        across.gap.clone_from(&other.gap);
-        across.widened.clone_from(&other.widened);
     }
 }

@@ -9,11 +9,7 @@ impl SeriesContact<'_> {
     pub fn exchange(&mut self) {
         for at in 0..self.lines.len() {
             let Some(patch) = self.lines[at].problem.line.patch else { continue };
-            if !patch.flexibility.is_sideways() {
-                self.lines[at].field = patch.field(self.lines.iter().map(|line| &line.powers[1]));
-                continue;
-            }
-            let [along, across] = patch.fields(self.lines.iter().map(|line| [&line.powers[1], &line.across.powers]));
+            let [along, across] = patch.fields(self.lines.iter().map(|line| [line.powers[1], line.across.powers]));
             (self.lines[at].field, self.lines[at].across.field) = (along, across);
         }
     }
@@ -21,7 +17,7 @@ impl SeriesContact<'_> {
     /// Derivatives of the displacements of a line along and across by its size, while the forces stay where they are \[m].
     pub fn growth(&self, at: usize) -> [ByPowers; 2] {
         let Some(patch) = self.lines[at].problem.line.patch else { return Default::default() };
-        let moments = self.lines.iter().map(|line| [&line.powers[1], &line.across.powers]);
+        let moments = self.lines.iter().map(|line| [line.powers[1], line.across.powers]);
         patch.flexibility.sums(patch.line, moments, |by| &by.growth)
     }
 }

@@ -117,7 +117,7 @@ impl ActiveSet<'_> {
         for line in lines.iter_mut() {
             for i in 0..line.grid.len() {
                 if !line.state.status[i].is_active() {
-                    line.state.across.force[i] = 0.0;
+                    line.state.lateral[i] = 0.0;
                 }
             }
         }

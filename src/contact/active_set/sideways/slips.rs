@@ -18,11 +18,11 @@ pub fn shears<const N: usize>(line: &ContactLine, nodes: &[usize]) -> ByDirectio
 
 /// Gives a line the shear at its closed `nodes`, and their states.
 pub fn give<const N: usize>(line: &mut ContactLine, nodes: &[usize], shear: &ByDirection<N, 2>, states: &[i8; N]) {
-    line.state.across.force.fill(0.0);
+    line.state.lateral.fill(0.0);
     for (place, &i) in nodes.iter().enumerate() {
         let port = line.grid.component(i);
         line.state.forces[port] = shear[0][place];
-        line.state.across.force[i] = shear[1][place];
+        line.state.lateral[i] = shear[1][place];
         line.state.status[i] = match states[place] {
             0 => NodeStatus::Stick,
             _ if shear[0][place] < 0.0 => NodeStatus::SlipBackward,
@@ -48,7 +48,7 @@ pub fn take<const N: usize>(
 ) {
     let (mut slips, mut bears) = ([[0.0; N]; 2], [0.0; N]);
     for (place, &i) in nodes.iter().enumerate() {
-        (slips[0][place], slips[1][place]) = (line.state.slip[i], line.state.across.slip[i]);
+        (slips[0][place], slips[1][place]) = (line.state.slip[0][i], line.state.slip[1][i]);
         bears[place] = line.friction(i) * line.normal(i).max(0.0);
     }
     problem.renew(slips, bears, shear, others);
