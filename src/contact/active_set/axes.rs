@@ -103,9 +103,8 @@ impl<'a> Axes<'a> {
         for line in lines {
             equation.constant += line.problem.share
                 * match axis {
-                    Axis::Lateral => -line.state.lateral.iter().sum::<f64>(),
                     Axis::Rotation => line.problem.radius() * line.iterate.retarded.force.iter().sum::<f64>(),
-                    Axis::Travel | Axis::Height => 0.0,
+                    Axis::Travel | Axis::Height | Axis::Lateral => 0.0,
                 };
         }
         for (other, motion) in self.rigid.iter() {
@@ -130,11 +129,6 @@ impl<'a> Axes<'a> {
         self.reaction(axis, lines) - load - self.brakes[axis].direction() * limit
     }
 
-    /// Residual of the equation of a motion in the present iterate [N/m, N].
-    pub fn residual(&self, axis: Axis, lines: &[ContactLine]) -> f64 {
-        self.value((axis, !self.holds(axis)), &self.row(axis, lines), lines)
-    }
-
     /// Force [N/m] or moment \[N] that the motion of an axis takes in the present iterate.
     fn reaction(&self, axis: Axis, lines: &[ContactLine]) -> f64 {
         self.value((axis, true), &self.balance(axis, 0.0, lines), lines)
@@ -146,8 +140,9 @@ impl<'a> Axes<'a> {
         let of_line = |line: &ContactLine| {
             let loaded = (0..line.grid.len()).filter(|&i| line.is_loaded(i));
             let of_node = |i: usize| {
-                let [tangential, normal] = line.pull_of_forces(axis, i);
-                tangential * line.tangential(i) + normal * line.normal(i)
+                let (normal, shear) = line.pull_of_forces(axis, i);
+                let of_shear = shear.iter().zip(line.shear(i)).map(|(by, force)| by * force).sum::<f64>();
+                normal * line.normal(i) + of_shear
             };
             line.problem.share * loaded.map(of_node).sum::<f64>()
         };

@@ -79,9 +79,11 @@ impl Guess {
 /// Gives nodes that slip the shear forces of friction under the pressures at hand.
 fn slide(line: &mut ContactLine) {
     for i in 0..line.grid.len() {
-        let (status, port) = (line.state.status[i], line.grid.component(i));
+        let status = line.state.status[i];
         if status.is_active() && !status.is_stuck() {
-            line.state.forces[port] = status.friction_direction() * line.friction(i) * line.normal(i);
+            let shear = line.slide(i).direction.map(|part| part * line.friction(i) * line.normal(i));
+            line.state.forces[line.grid.component(i)] = shear[0];
+            line.state.lateral.get_mut(i).into_iter().for_each(|lateral| *lateral = shear[1]);
         }
     }
 }

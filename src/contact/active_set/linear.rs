@@ -5,10 +5,11 @@
 //! that are sought follow from one small system: any number of lines costs as often as much as one.
 
 use super::axes::Axes;
-use super::own_forces::{ANGLE, FELT, Felt, KNOWN, MOTIONS, OPENED, OwnForces, PORTS, add};
+use super::own_forces::{ACROSS, ALONG, ANGLE, FELT, Felt, KNOWN, MOTIONS, OPENED, OwnForces, PORTS, add};
 use super::unknowns::Unknowns;
 use crate::axes::Axis;
 use crate::contact::error::ContactError;
+use crate::contact::flexibility::ByMoments;
 use crate::contact::line::contact_line::ContactLine;
 use crate::linalg::{DenseSystem, POINTS};
 
@@ -18,7 +19,30 @@ const ON_PORTS: usize = 2 * POINTS;
 /// Solution of linear problems, and its memory.
 #[derive(Default)]
 pub(super) struct LinearSolver {
-    lines: Vec<OwnForces>,
+    along: Solver<ALONG>,
+    across: Solver<ACROSS>,
+}
+
+impl LinearSolver {
+    /// Solves a linear problem and gives the lines their forces and motions. With `given` tangential forces at the candidates
+    /// of every line, pressures alone are sought, and of the motions the height.
+    pub fn solve(
+        &mut self,
+        lines: &mut [ContactLine],
+        with: (&Axes, &Unknowns),
+        given: Option<&[Vec<f64>]>,
+    ) -> Result<(), ContactError> {
+        match lines.iter().any(|line| line.state.directions() > 1) {
+            false => self.along.solve(lines, with, given),
+            true => self.across.solve(lines, with, given),
+        }
+    }
+}
+
+/// Solution of linear problems in which what a line feels has C columns.
+#[derive(Default)]
+struct Solver<const C: usize> {
+    lines: Vec<OwnForces<C>>,
     /// Equations of the small system, row by row, and the values of its unknowns where they are zero, with their signs
     /// reversed.
     rows: Vec<f64>,
@@ -32,18 +56,18 @@ pub(super) struct LinearSolver {
 #[derive(Clone, Copy)]
 struct Numbering {
     lines: usize,
-    /// Moments of a line.
-    moments: usize,
+    /// Directions of the shear whose moments lines feel.
+    directions: usize,
     motions: usize,
 }
 
 impl Numbering {
-    fn moment(self, line: usize, k: usize) -> usize {
-        ON_PORTS + line * self.moments + k
+    fn moment(self, line: usize, direction: usize, k: usize) -> usize {
+        ON_PORTS + (line * self.directions + direction) * POINTS + k
     }
 
     fn angle(self, line: usize) -> usize {
-        self.moment(self.lines, 0) + line
+        self.moment(self.lines, 0, 0) + line
     }
 
     fn motion(self, number: usize) -> usize {
@@ -61,19 +85,19 @@ struct Small<'a, 'b> {
     axes: &'a Axes<'a>,
     sought: &'a [Axis],
     places: Numbering,
-    /// Coefficients of the slip that every line feels by the moments of every line, by the one that feels, by the moments.
-    between: Vec<[[f64; POINTS]; POINTS]>,
+    /// Coefficients of the slip that every line feels in every direction by the moments of every line in every direction.
+    between: Vec<ByMoments>,
     /// Gaps that unit forces on the ports open at the points, those that sought motions open, and the places of the points.
     by_ports: [[f64; ON_PORTS]; POINTS],
     by_motions: [[f64; Axis::COUNT]; POINTS],
     points: [f64; POINTS],
 }
 
-impl LinearSolver {
+impl<const C: usize> Solver<C> {
     /// Solves a linear problem and gives the lines their forces and motions. With `given` tangential forces at the candidates
     /// of every line, pressures alone are sought, and of the motions the height.
     #[inline(never)]
-    pub fn solve(
+    fn solve(
         &mut self,
         lines: &mut [ContactLine],
         (axes, unknowns): (&Axes, &Unknowns),
@@ -90,13 +114,19 @@ impl LinearSolver {
         let small = Small::new(lines, axes, &unknowns.axes);
         self.write(&small);
         let solution = self.solution().ok_or_else(singular)?;
-        let felt: Vec<Felt> = (0..small.places.lines).map(|k| small.felt(k, &solution)).collect();
+        let felt: Vec<Felt<C>> = (0..small.places.lines).map(|k| small.felt(k, &solution)).collect();
         let changes = &solution[small.places.motion(0)..];
         for ((own, line), felt) in self.lines.iter().zip(&mut *lines).zip(&felt) {
             line.state.forces.fill(0.0);
-            own.take(felt, |i, [tangential, normal]| {
+            if given.is_none() {
+                line.state.lateral.fill(0.0);
+            }
+            own.take(felt, |i, normal, [along, across]| {
                 let at = line.grid.component(i);
-                (line.state.forces[at], line.state.forces[at + 1]) = (tangential, normal);
+                (line.state.forces[at], line.state.forces[at + 1]) = (along, normal);
+                if let Some(lateral) = line.state.lateral.get_mut(i).filter(|_| given.is_none()) {
+                    *lateral = across;
+                }
             });
         }
         unknowns.move_by(changes, lines, axes);
@@ -116,18 +146,24 @@ impl LinearSolver {
         }
         for (k, (own, line)) in self.lines.iter().zip(lines).enumerate() {
             let (nodes, grid) = (&own.nodes, line.grid);
-            let on_points = own.sums(|place| grid.values[nodes[place] + grid.guard]);
-            for (port, sum) in on_points.as_flattened().iter().enumerate() {
-                small.add(k, sum, -line.problem.share, row(&mut self.rows, &mut self.constants, port));
+            let at_points = |place: usize| grid.values[nodes[place] + grid.guard];
+            let on_points = [own.sums_of_shear(0, at_points), own.sums_of_pressures(at_points)];
+            for (component, sums) in on_points.iter().enumerate() {
+                for (point, sum) in sums.iter().enumerate() {
+                    let at = row(&mut self.rows, &mut self.constants, 2 * point + component);
+                    small.add(k, sum, -line.problem.share, at);
+                }
             }
-            for (n, [moment, _]) in own.moments().filter(|_| small.places.moments > 0).iter().flatten().enumerate() {
-                let at = small.places.moment(k, n);
-                small.add(k, moment, -1.0, row(&mut self.rows, &mut self.constants, at));
+            for direction in 0..small.places.directions {
+                for (n, moment) in own.moments(direction).iter().enumerate() {
+                    let at = small.places.moment(k, direction, n);
+                    small.add(k, moment, -1.0, row(&mut self.rows, &mut self.constants, at));
+                }
             }
             let rim = &line.iterate.rim;
             let own_angle = own.sum(|place| {
                 let node = nodes[place] + grid.guard;
-                [rim.tangential[node], rim.normal[node]]
+                (rim.normal[node], [rim.tangential[node], 0.0])
             });
             let at = small.places.angle(k);
             small.add(k, &own_angle, -1.0, row(&mut self.rows, &mut self.constants, at));
@@ -173,9 +209,12 @@ fn row<'a>(rows: &'a mut [f64], constants: &'a mut [f64], at: usize) -> SmallRow
 impl<'a, 'b> Small<'a, 'b> {
     fn new(lines: &'a [ContactLine<'b>], axes: &'a Axes<'a>, sought: &'a [Axis]) -> Self {
         let felt = lines.iter().all(|line| line.problem.patch.is_some());
-        let places = Numbering { lines: lines.len(), moments: if felt { POINTS } else { 0 }, motions: sought.len() };
-        let pairs = (0..lines.len()).flat_map(|at| (0..lines.len()).map(move |by| (at, by)));
-        let between = pairs.filter_map(|(at, by)| lines[at].slip_by_moments(by)).collect();
+        let directions = if felt { lines[0].state.directions() } else { 0 };
+        let places = Numbering { lines: lines.len(), directions, motions: sought.len() };
+        let each = |at: usize| (0..directions).map(move |direction| (at, direction));
+        let all = || (0..lines.len()).flat_map(each);
+        let pairs = all().flat_map(|(at, of)| all().map(move |(by, other)| (at, of, by, other)));
+        let between = pairs.filter_map(|(at, of, by, other)| lines[at].slip_by_moments(of, by, other)).collect();
         let (bodies, points) = (&lines[0].problem.bodies, lines[0].grid.points.nodes());
         let lifts = |axis: Axis, point: usize| {
             let rigid = if axis == Axis::Height { 1.0 } else { 0.0 };
@@ -189,7 +228,7 @@ impl<'a, 'b> Small<'a, 'b> {
     }
 
     /// Adds `factor` times an affine function of what line `k` feels to an equation.
-    fn add(&self, k: usize, of: &Felt, factor: f64, (row, constant): SmallRow) {
+    fn add<const C: usize>(&self, k: usize, of: &Felt<C>, factor: f64, (row, constant): SmallRow) {
         let places = self.places;
         *constant += factor * of[KNOWN];
         for (point, opened) in of[OPENED].iter().map(|opened| factor * opened).enumerate() {
@@ -200,13 +239,19 @@ impl<'a, 'b> Small<'a, 'b> {
         add(factor, &of[PORTS], &mut row[..ON_PORTS]);
         row[places.angle(k)] += factor * of[ANGLE];
         add(factor, &of[MOTIONS], &mut row[places.motion(0)..]);
-        for j in 0..if places.moments > 0 { places.lines } else { 0 } {
-            let between = &self.between[k * places.lines + j];
-            for (n, by_moment) in between.iter().enumerate() {
-                let felt: f64 = of[FELT].iter().zip(by_moment).map(|(by, slip)| by * slip).sum();
-                row[places.moment(j, n)] += factor * felt;
+        for direction in 0..places.directions {
+            let felt = &of[FELT[direction].clone()];
+            for (at, between) in self.between_of(k, direction).as_flattened().iter().enumerate() {
+                let by_moment: f64 = felt.iter().zip(between).map(|(by, slip)| by * slip).sum();
+                row[places.moment(0, 0, 0) + at] += factor * by_moment;
             }
         }
+    }
+
+    /// Coefficients of the slip that line `k` feels in a direction, by the moments of all lines in all directions.
+    fn between_of(&self, k: usize, direction: usize) -> &[ByMoments] {
+        let Numbering { lines, directions, .. } = self.places;
+        &self.between[(k * directions + direction) * lines * directions..][..lines * directions]
     }
 
     /// Adds what the rim angle of line `k` has by bodies and motions to its equation.
@@ -224,7 +269,7 @@ impl<'a, 'b> Small<'a, 'b> {
     }
 
     /// Adds the balance of a sought motion, or rest where a brake holds it.
-    fn add_balance(&self, axis: Axis, own: &[OwnForces], (row, constant): SmallRow) {
+    fn add_balance<const C: usize>(&self, axis: Axis, own: &[OwnForces<C>], (row, constant): SmallRow) {
         let balance = self.axes.row(axis, self.lines);
         *constant += balance.constant + balance.motions.dot(self.lines[0].traction.rigid);
         row[..ON_PORTS].iter_mut().zip(balance.ports).for_each(|(value, by)| *value += by);
@@ -241,8 +286,8 @@ impl<'a, 'b> Small<'a, 'b> {
     }
 
     /// Numbers that line `k` feels in a solution.
-    fn felt(&self, k: usize, solution: &[f64]) -> Felt {
-        let (places, mut felt) = (self.places, [0.0; _]);
+    fn felt<const C: usize>(&self, k: usize, solution: &[f64]) -> Felt<C> {
+        let (places, mut felt) = (self.places, [0.0; C]);
         let (ports, motions, angle) = (&solution[..ON_PORTS], &solution[places.motion(0)..], solution[places.angle(k)]);
         felt[KNOWN] = 1.0;
         felt[PORTS].copy_from_slice(ports);
@@ -253,9 +298,11 @@ impl<'a, 'b> Small<'a, 'b> {
             let opened = product(&self.by_ports[point], ports) + product(&self.by_motions[point], motions);
             felt[OPENED.start + point] = opened - x * angle;
         }
-        for (moment, value) in solution[places.moment(0, 0)..places.angle(0)].iter().enumerate() {
-            let (j, n) = (moment / POINTS, moment % POINTS);
-            add(*value, &self.between[k * places.lines + j][n], &mut felt[FELT]);
+        for direction in 0..places.directions {
+            let moments = &solution[places.moment(0, 0, 0)..places.angle(0)];
+            for (moment, by_moment) in moments.iter().zip(self.between_of(k, direction).as_flattened()) {
+                add(*moment, by_moment, &mut felt[FELT[direction].clone()]);
+            }
         }
         felt
     }

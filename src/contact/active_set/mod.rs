@@ -1,9 +1,9 @@
 //! Contact on a grid of paired surface nodes: exact Coulomb friction by an active set.
 //!
 //! The driver of a [line](crate::contact::line): [`search`] iterates, [`states`] has the rules by which nodes open,
-//! close, stick and slip, [`unknowns`] the unknowns of given states, [`linear`] finds them around the [`own_forces`] of every
+//! close, stick and slip, [`slides`] the directions in which they do where shear has a lateral part, [`unknowns`] the unknowns of given states, [`linear`] finds them around the [`own_forces`] of every
 //! line, [`axes`] has the balances of the rigid motions, [`coefficients`] the friction that follows its law, [`pressing`] the
-//! normal problem by itself, and [`guess`] where it starts; [`sideways`] goes by turns where tractions have a lateral part. [`solver`] is the contact solver that uses it. Theory: `docs/theory/contact.md`.
+//! normal problem by itself, and [`guess`] where it starts. [`solver`] is the contact solver that uses it. Theory: `docs/theory/contact.md`.
 
 mod axes;
 mod coefficients;
@@ -12,7 +12,7 @@ mod linear;
 mod own_forces;
 mod pressing;
 mod search;
-mod sideways;
+mod slides;
 mod solver;
 mod states;
 mod unknowns;

@@ -5,12 +5,12 @@
 //! nodes, and that of the shear at stuck ones, which pressures reach through friction at those that slip.
 
 use super::axes::Axes;
-use super::unknowns::LineUnknowns;
+use super::unknowns::{LineUnknowns, ShearUnknown};
 use crate::axes::Axis;
 use crate::contact::flexibility::ByPowers;
 use crate::contact::kernel::Logarithm;
 use crate::contact::line::contact_line::ContactLine;
-use crate::contact::line::rows::BodyRows;
+use crate::contact::line::rows::{AffineRow, BodyRows, UpwindSlip};
 use crate::linalg::{DenseSystem, POINTS};
 use nalgebra::DMatrix;
 use std::ops::Range;
@@ -22,25 +22,26 @@ pub const KNOWN: usize = 0;
 pub const OPENED: Range<usize> = 1..1 + POINTS;
 /// Columns by the forces of all lines on the ports, as far as they make a line slip.
 pub const PORTS: Range<usize> = OPENED.end..OPENED.end + 2 * POINTS;
-/// Columns by the coefficients of the slip that the lines of the patch cause, by powers of the place.
-pub const FELT: Range<usize> = PORTS.end..PORTS.end + POINTS;
 /// Column by the rim angle, as far as it makes a line slip.
-pub const ANGLE: usize = FELT.end;
+pub const ANGLE: usize = PORTS.end;
 /// Columns by the motions that are sought, as far as they make a line slip.
 pub const MOTIONS: Range<usize> = ANGLE + 1..ANGLE + 1 + Axis::COUNT;
-/// Columns, in whole registers.
-pub const COLUMNS: usize = MOTIONS.end.next_multiple_of(4);
+/// Columns by the coefficients of the slips along and across that the lines of the patch cause, by powers of the place.
+pub const FELT: [Range<usize>; 2] = [MOTIONS.end..MOTIONS.end + POINTS, MOTIONS.end + POINTS..MOTIONS.end + 2 * POINTS];
+/// Numbers of columns, in whole registers: along, and along and across.
+pub const ALONG: usize = FELT[0].end.next_multiple_of(4);
+pub const ACROSS: usize = FELT[1].end.next_multiple_of(4);
 /// Columns of pressures: known ones and [`OPENED`], in whole registers.
 const PRESSED: usize = OPENED.end.next_multiple_of(4);
 
 /// Affine function of what a line feels, by columns.
-pub type Felt = [f64; COLUMNS];
+pub type Felt<const C: usize> = [f64; C];
 /// The columns of pressures alone.
 type PressureColumns = [f64; PRESSED];
 
 /// Forces of one line.
 #[derive(Default)]
-pub struct OwnForces {
+pub struct OwnForces<const C: usize> {
     /// Factors of the flexibility of closed nodes, which belong to [`Self::kept`], and of the stuck ones.
     pressures: DenseSystem,
     shear: DenseSystem,
@@ -48,18 +49,17 @@ pub struct OwnForces {
     /// Normal forces at the closed nodes, and the known ones among them.
     pressed: Vec<[PressureColumns; 1]>,
     known: Vec<f64>,
-    /// Tangential over normal forces at the closed nodes where they slip \[1], and places of the stuck ones among them.
-    friction: Vec<f64>,
-    stuck: Vec<usize>,
-    /// Tangential forces at the stuck nodes.
-    sheared: Vec<[Felt; 1]>,
+    /// Shear along and across over normal forces at the closed nodes where they slip \[1], and further shear at them.
+    friction: Vec<[f64; 2]>,
+    unknown: Vec<ShearUnknown>,
+    sheared: Vec<[Felt<C>; 1]>,
     /// Closed nodes, then open ones with given tangential forces.
     pub nodes: Vec<usize>,
     /// Given tangential forces at these [N/m]; empty: there are none.
     given: Vec<f64>,
     /// Powers of their places \[1]; empty: the line is in no patch.
     powers: Vec<ByPowers>,
-    row: Vec<f64>,
+    rows: [Vec<f64>; 2],
 }
 
 /// Closed nodes and flexibility of a factor of pressures, and of their answer to what bodies and motions open.
@@ -82,7 +82,7 @@ pub fn add(factor: f64, of: &[f64], sum: &mut [f64]) {
     sum.iter_mut().zip(of).for_each(|(sum, value)| *sum += factor * value);
 }
 
-impl OwnForces {
+impl<const C: usize> OwnForces<C> {
     /// Takes the forces in given states; whether there are any that are finite. With `given` tangential forces at the
     /// candidates, only the pressures are unknown.
     pub fn find(
@@ -94,7 +94,7 @@ impl OwnForces {
     ) -> bool {
         self.friction.clone_from(&unknowns.friction);
         self.nodes.clone_from(&unknowns.closed);
-        self.stuck.clear();
+        self.unknown.clear();
         self.sheared.clear();
         self.given.clear();
         if let Some(given) = given {
@@ -108,7 +108,7 @@ impl OwnForces {
         }
         let bodies = line.body_rows();
         let pressed = self.press(line, unknowns, (axes, &bodies));
-        pressed && (given.is_some() || unknowns.stuck.is_empty() || self.shear(line, unknowns, (axes, sought), &bodies))
+        pressed && (unknowns.shear.is_empty() || self.shear(line, unknowns, (axes, sought), &bodies))
     }
 
     /// Takes the pressures that close the gap.
@@ -162,7 +162,7 @@ impl OwnForces {
         pressures.factorise() && pressures.solve_with_all(pressed)
     }
 
-    /// Takes the shear that keeps stuck nodes from slipping.
+    /// Takes the shear that keeps stuck nodes from slipping, and that which turns against the slip.
     #[inline(never)]
     fn shear(
         &mut self,
@@ -171,91 +171,137 @@ impl OwnForces {
         (axes, sought): (&Axes, &[Axis]),
         bodies: &BodyRows,
     ) -> bool {
-        let Self { shear, sheared, stuck, row, pressed, friction, powers, .. } = self;
-        let closed = &unknowns.closed;
-        stuck.extend(closed.iter().enumerate().filter(|(_, i)| line.state.status[**i].is_stuck()).map(|(k, _)| k));
-        shear.reset(stuck.len());
-        for (r, &place) in stuck.iter().enumerate() {
-            let (affine, upwind) = line.slip_row(closed[place], bodies);
-            let equation = axes.equation(affine);
-            let mut sides = [0.0; COLUMNS];
-            sides[KNOWN] = -(equation.constant + equation.motions.dot(line.traction.rigid));
-            sides[PORTS].iter_mut().zip(&affine.ports).for_each(|(side, by)| *side = -by);
-            if let Some(powers) = powers.get(place) {
-                sides[FELT].iter_mut().zip(powers).for_each(|(side, power)| *side = -power);
-            }
-            sides[ANGLE] = -affine.angle;
-            sides[MOTIONS].iter_mut().zip(sought).for_each(|(side, &axis)| *side = -equation.motions[axis]);
-            line.slips_by_own(closed[place], &upwind, closed, row);
-            for ((slip, friction), [pressed]) in row.iter().zip(&*friction).zip(&*pressed) {
-                add(-slip * friction, pressed, &mut sides[..PRESSED]);
-            }
-            for (at, slip) in line.slips_by_pressure(&upwind) {
-                if let Ok(place) = closed.binary_search_by_key(&at, |&j| line.grid.component(j)) {
-                    add(-slip, &pressed[place][0], &mut sides[..PRESSED]);
+        self.unknown.extend_from_slice(&unknowns.shear);
+        self.shear.reset(self.unknown.len());
+        let mut at = None;
+        for r in 0..self.unknown.len() {
+            let ShearUnknown { place, direction, turn } = self.unknown[r];
+            let i = unknowns.closed[place];
+            let node = at.take_if(|(before, _)| *before == place);
+            let (_, node) = at.insert(node.unwrap_or_else(|| (place, self.node_rows(line, (i, &unknowns.closed), bodies))));
+            let mut sides = [0.0; C];
+            for (d, (part, affine)) in direction.into_iter().zip(&node.affine).enumerate().filter(|(_, (p, _))| *p != 0.0) {
+                let equation = axes.equation(*affine);
+                sides[KNOWN] -= part * (equation.constant + equation.motions.dot(line.traction.rigid));
+                add(-part, &affine.ports, &mut sides[PORTS]);
+                sides[ANGLE] -= part * affine.angle;
+                sides[MOTIONS].iter_mut().zip(sought).for_each(|(side, &axis)| *side -= part * equation.motions[axis]);
+                if let Some(powers) = self.powers.get(place) {
+                    add(-part, powers, &mut sides[FELT[d].clone()]);
+                }
+                for ((slip, friction), [pressed]) in self.rows[d].iter().zip(&self.friction).zip(&self.pressed) {
+                    if friction[d] != 0.0 {
+                        add(-part * slip * friction[d], pressed, &mut sides[..PRESSED]);
+                    }
                 }
             }
-            shear.row(r).0.iter_mut().zip(&*stuck).for_each(|(value, &place)| *value = row[place]);
-            sheared.push([sides]);
+            for (at, slip) in line.slips_by_pressure(&node.upwind) {
+                if let Ok(place) = unknowns.closed.binary_search_by_key(&at, |&j| line.grid.component(j)) {
+                    add(-direction[0] * slip, &self.pressed[place][0], &mut sides[..PRESSED]);
+                }
+            }
+            let row = self.shear.row(r).0;
+            for (value, other) in row.iter_mut().zip(&self.unknown) {
+                let parts = direction.iter().zip(other.direction).zip(&self.rows);
+                *value = parts.filter(|((a, b), _)| **a * b != 0.0).map(|((a, b), row)| a * b * row[other.place]).sum();
+            }
+            row[r] += turn;
+            self.sheared.push([sides]);
         }
-        shear.factorise() && shear.solve_with_all(sheared)
+        self.shear.factorise() && self.shear.solve_with_all(&mut self.sheared)
     }
 
-    /// Sum over the nodes of tangential and normal forces, times factors.
-    pub fn sum(&self, factors: impl Fn(usize) -> [f64; 2]) -> Felt {
-        let (mut sum, mut of_pressures) = ([0.0; COLUMNS], [0.0; PRESSED]);
-        for (place, (friction, [pressed])) in self.friction.iter().zip(&self.pressed).enumerate() {
-            let [tangential, normal] = factors(place);
-            add(normal + friction * tangential, pressed, &mut of_pressures);
+    /// Slips of closed node `i` by what the line feels; those by the shear of the closed nodes go into [`Self::rows`].
+    fn node_rows(&mut self, line: &ContactLine, (i, closed): (usize, &[usize]), bodies: &BodyRows) -> NodeRows {
+        let (along, upwind) = line.slip_row(i, bodies);
+        let mut affine = [along, AffineRow::default()];
+        for direction in 0..line.state.directions() {
+            line.slips_by_own(direction, (i, &upwind), closed, &mut self.rows[direction]);
         }
-        for (&place, [sheared]) in self.stuck.iter().zip(&self.sheared) {
-            add(factors(place)[0], sheared, &mut sum);
+        if line.state.directions() > 1 {
+            affine[1] = line.slip_row_across(i, &upwind);
+        }
+        NodeRows { affine, upwind }
+    }
+
+    /// Sum over the nodes of normal forces and shear along and across, times factors.
+    pub fn sum(&self, factors: impl Fn(usize) -> (f64, [f64; 2])) -> Felt<C> {
+        let (mut sum, mut of_pressures) = ([0.0; C], [0.0; PRESSED]);
+        for (place, (friction, [pressed])) in self.friction.iter().zip(&self.pressed).enumerate() {
+            let (normal, shear) = factors(place);
+            add(normal + friction[0] * shear[0] + friction[1] * shear[1], pressed, &mut of_pressures);
+        }
+        for (ShearUnknown { place, direction, .. }, [sheared]) in self.unknown.iter().zip(&self.sheared) {
+            let (_, shear) = factors(*place);
+            add(direction[0] * shear[0] + direction[1] * shear[1], sheared, &mut sum);
         }
         add(1.0, &of_pressures, &mut sum[..PRESSED]);
-        sum[KNOWN] += self.given.iter().enumerate().map(|(place, force)| factors(place)[0] * force).sum::<f64>();
+        sum[KNOWN] += self.given.iter().enumerate().map(|(place, force)| factors(place).1[0] * force).sum::<f64>();
         sum
     }
 
-    /// Sums over the nodes of tangential and of normal forces, times values there.
+    /// Sums over the nodes of normal forces, times values there.
+    pub fn sums_of_pressures(&self, values: impl Fn(usize) -> [f64; POINTS]) -> [Felt<C>; POINTS] {
+        let mut sums = [[0.0; PRESSED]; POINTS];
+        for (place, [pressed]) in self.pressed.iter().enumerate() {
+            sums.iter_mut().zip(values(place)).for_each(|(sum, value)| add(value, pressed, sum));
+        }
+        sums.map(widened)
+    }
+
+    /// Sums over the nodes of shear along (0) or across (1), times values there.
     #[inline(never)]
-    pub fn sums(&self, values: impl Fn(usize) -> [f64; POINTS]) -> [[Felt; 2]; POINTS] {
-        let (mut sums, mut slipping, mut normal) =
-            ([[[0.0; COLUMNS]; 2]; POINTS], [[0.0; PRESSED]; POINTS], [[0.0; PRESSED]; POINTS]);
+    pub fn sums_of_shear(&self, direction: usize, values: impl Fn(usize) -> [f64; POINTS]) -> [Felt<C>; POINTS] {
+        let mut slipping = [[0.0; PRESSED]; POINTS];
         for (place, (friction, [pressed])) in self.friction.iter().zip(&self.pressed).enumerate() {
-            for ((slipping, normal), value) in slipping.iter_mut().zip(&mut normal).zip(values(place)) {
-                add(value, pressed, normal);
-                if *friction != 0.0 {
-                    add(friction * value, pressed, slipping);
-                }
+            let friction = friction[direction];
+            if friction != 0.0 {
+                slipping.iter_mut().zip(values(place)).for_each(|(sum, value)| add(friction * value, pressed, sum));
             }
         }
-        for (&place, [sheared]) in self.stuck.iter().zip(&self.sheared) {
-            sums.iter_mut().zip(values(place)).for_each(|(sum, value)| add(value, sheared, &mut sum[0]));
+        let mut sums = slipping.map(widened);
+        for (unknown, [sheared]) in self.unknown.iter().zip(&self.sheared) {
+            let part = unknown.direction[direction];
+            if part != 0.0 {
+                sums.iter_mut().zip(values(unknown.place)).for_each(|(sum, value)| add(part * value, sheared, sum));
+            }
         }
-        for (place, force) in self.given.iter().enumerate() {
-            sums.iter_mut().zip(values(place)).for_each(|(sum, value)| sum[0][KNOWN] += value * force);
-        }
-        for ((sum, slipping), normal) in sums.iter_mut().zip(&slipping).zip(&normal) {
-            add(1.0, slipping, &mut sum[0][..PRESSED]);
-            add(1.0, normal, &mut sum[1][..PRESSED]);
+        for (place, force) in self.given.iter().enumerate().filter(|_| direction == 0) {
+            sums.iter_mut().zip(values(place)).for_each(|(sum, value)| sum[KNOWN] += value * force);
         }
         sums
     }
 
-    /// Moments of the tangential forces with the powers of their places, if the line is in a patch.
-    pub fn moments(&self) -> Option<[[Felt; 2]; POINTS]> {
-        (!self.powers.is_empty()).then(|| self.sums(|place| self.powers[place]))
+    /// Moments of the shear along (0) or across (1) with the powers of the places.
+    pub fn moments(&self, direction: usize) -> [Felt<C>; POINTS] {
+        self.sums_of_shear(direction, |place| self.powers[place])
     }
 
-    /// Hands tangential and normal forces at all nodes over, given what the line feels.
-    pub fn take(&self, felt: &Felt, mut give: impl FnMut(usize, [f64; 2])) {
+    /// Hands normal forces and shear along and across at all nodes over, given what the line feels.
+    pub fn take(&self, felt: &Felt<C>, mut give: impl FnMut(usize, f64, [f64; 2])) {
         let value = |of: &[f64]| of.iter().zip(felt).map(|(of, by)| of * by).sum::<f64>();
-        let mut stuck = self.stuck.iter().zip(&self.sheared).peekable();
+        let mut unknown = self.unknown.iter().zip(&self.sheared).peekable();
         for (place, &i) in self.nodes.iter().enumerate() {
             let normal = self.pressed.get(place).map_or(0.0, |[pressed]| value(pressed));
-            let sheared = stuck.next_if(|(at, _)| **at == place).map(|(_, [sheared])| value(sheared));
-            let slipping = self.friction.get(place).map_or(0.0, |friction| friction * normal);
-            give(i, [self.given.get(place).copied().or(sheared).unwrap_or(slipping), normal]);
+            let mut shear = self.friction.get(place).map_or([0.0; 2], |friction| friction.map(|part| part * normal));
+            while let Some((unknown, [sheared])) = unknown.next_if(|(unknown, _)| unknown.place == place) {
+                add(value(sheared), &unknown.direction, &mut shear);
+            }
+            shear[0] += self.given.get(place).copied().unwrap_or(0.0);
+            give(i, normal, shear);
         }
     }
+}
+
+/// Slips of a node along and across by what its line feels.
+struct NodeRows {
+    affine: [AffineRow; 2],
+    upwind: UpwindSlip,
+}
+
+/// Columns of pressures among all columns.
+fn widened<const C: usize>(pressed: PressureColumns) -> Felt<C> {
+    let mut all = [0.0; C];
+    all[..PRESSED].copy_from_slice(&pressed);
+    all
 }

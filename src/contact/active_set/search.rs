@@ -12,6 +12,7 @@ use super::coefficients::{FollowedLaws, Obedience, Progress};
 use super::guess::Guess;
 use super::linear::LinearSolver;
 use super::pressing::PressureSearch;
+use super::slides;
 use super::states::{self, Rules};
 use super::unknowns::Unknowns;
 use crate::axes::Axis;
@@ -47,6 +48,9 @@ const MOST_BALANCING: usize = 4;
 /// Change of the force of retarded layers in the last iteration that counts as none, over the nominal load \[1].
 const RETARDED_TOLERANCE: f64 = 1e-7;
 
+/// Distance of friction from its direction over the largest of the line, from which directions go on turning, and which is none \[1].
+const TELLING: f64 = 1e-3;
+const MISSED: f64 = 1e-9;
 /// Way of the material in a step, over the distance of the nodes, at which it stands \[1].
 const STANDS: f64 = 1e-9;
 
@@ -108,13 +112,17 @@ impl<'a> ActiveSet<'a> {
         let together = problem.lines.iter().zip(starts).zip(buffers);
         let mut lines: Vec<_> =
             together.map(|((line, start), buffers)| ContactLine::new(grid, line, start, buffers)).collect();
-        lines.iter_mut().for_each(|line| line.traction.rigid = problem.rigid.map(|motion| motion.start()));
+        for line in &mut lines {
+            line.traction.rigid = problem.rigid.map(|motion| motion.start());
+            line.spin = if line.state.directions() > 1 { problem.spin } else { line.spin };
+        }
         exchange::forces(&mut lines);
         // Lever arms of the start: without what the lines' own flexibility adds to them moments would not balance at once.
         lines.iter_mut().for_each(|line| {
             let alone = Alone { kernel: line.kernel, grid: line.grid };
             alone.find(line.state.forces.as_slice(), &mut line.iterate.own);
             line.lift();
+            line.displace_across();
         });
         let penalties = lines.iter().map(states::penalty).collect();
         Self { problem, grid, lines, penalties, axes: Axes::new(&problem.rigid), memory }
@@ -127,6 +135,7 @@ impl<'a> ActiveSet<'a> {
             if line.problem.time.is_stationary() {
                 states::found_anew(line);
             }
+            slides::begin(line);
         }
         let laws = FollowedLaws::begin(&mut self.lines);
         self.guess_closed();
@@ -194,14 +203,15 @@ impl<'a> ActiveSet<'a> {
             self.solve_linear()?;
             let turned =
                 self.lines.iter().any(|line| (line.frame.rim_angle - line.iterate.rim.value).abs() > ANGLE_TOLERANCE);
-            let changed = self.update_states(iteration);
+            let (changed, missed) = self.update_states(iteration);
+            let changed = changed || missed > TELLING;
             // Once states and edges are settled, only motions and rim angle are refined: smooth functions of the data.
             decided += usize::from(first);
             settled = !changed && (settled || self.edges_settled() || self.stands());
             first = first && !settled;
             let relieved = self.update_retarded().abs() > RETARDED_TOLERANCE * self.problem.nominal_load;
             let relieved = relieved && self.axes.seeks(Axis::Rotation);
-            let refined = settled && !turned && !relieved && self.lines.iter().all(states::sticks);
+            let refined = settled && missed <= MISSED && !turned && !relieved && self.lines.iter().all(states::sticks);
             let progress = match settled {
                 true if refined => Progress::Refined,
                 true => Progress::Settled,
@@ -248,24 +258,25 @@ impl<'a> ActiveSet<'a> {
         self.lines.iter_mut().map(|line| line.problem.share * line.update_retarded()).sum()
     }
 
-    /// Takes new states of nodes and brakes; returns whether any changed.
-    fn update_states(&mut self, iteration: usize) -> bool {
+    /// Takes new states of nodes and brakes; returns whether any changed, and how far friction is from its directions \[1].
+    fn update_states(&mut self, iteration: usize) -> (bool, f64) {
         let growth = GROWTH.powi(iteration.saturating_sub(STRICT_ITERATIONS) as i32);
         let founding = (RESTARTS[0]..RESTARTS[1]).contains(&iteration);
         let Self { lines, penalties, axes, memory, problem, grid } = self;
-        let (mut changed, mut tolerance) = (false, 0.0);
+        let (mut changed, mut tolerance, mut missed) = (false, 0.0, 0.0_f64);
         for (line, penalty) in lines.iter_mut().zip(penalties) {
             let rules = Rules::new(line, *penalty, problem.nominal_load, growth, founding);
             tolerance = rules.force;
             if iteration <= TOGETHER || !changed {
                 changed |= states::update(line, &rules, iteration > TOGETHER, &mut memory.before);
+                missed = missed.max(slides::turn(line, &memory.before));
             }
         }
         let braked = axes.update_brakes(lines, tolerance * grid.len() as f64);
         // A static problem needs a support.
         let held = problem.rigid.height.gain != 0.0 || !axes.seeks(Axis::Height);
         let closed = !held && states::support(lines);
-        closed || changed || braked
+        (closed || changed || braked, missed)
     }
 
     /// True if the material moves by so little in the step that it does not matter where it comes from.

@@ -66,16 +66,11 @@ impl ActiveSetSolver {
         let resumed = follow && problem.begin == Begin::Found && !problem.is_sideways();
         let begun = start.iter().zip(found).map(|(start, found)| begin(start, found, resumed));
         let mut starts = begun.collect::<Result<Vec<_>, _>>()?;
-        let ContactScratch { active_set, linear_laws, .. } = scratch;
-        if !problem.is_sideways() {
-            return ActiveSet::new(&self.grid, (problem, follow), starts, active_set).run();
-        }
-        for LineStart { state, history, .. } in &mut starts {
+        for LineStart { state, history, .. } in starts.iter_mut().filter(|_| problem.is_sideways()) {
             state.reach_across(self.grid.len());
             history.friction.reach(2 * self.grid.len());
         }
-        *linear_laws = ActiveSet::new(&self.grid, (problem, follow), starts, active_set).run_across()?;
-        Ok(())
+        ActiveSet::new(&self.grid, (problem, follow), starts, &mut scratch.active_set).run()
     }
 }
 

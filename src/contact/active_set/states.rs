@@ -6,7 +6,7 @@
 //!   through stick; a node that closes takes the state of its nearest closed neighbour and sticks where it has none,
 //!   unless the surfaces run against each other. Without these rules the iteration cycles.
 
-use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::contact_line::{ContactLine, Slide};
 use crate::contact::line::state::{GridState, NodeStatus};
 
 /// Tolerance of nodal forces in mean nodal loads, at first and at most.
@@ -106,10 +106,10 @@ pub(super) fn yields(line: &ContactLine, i: usize, tolerance: f64) -> bool {
 
 /// State of a node that has stuck: it slips where friction cannot hold it.
 fn stuck_state(line: &ContactLine, i: usize, tolerance: f64) -> NodeStatus {
-    let (t, n, friction) = (line.tangential(i), line.normal(i), line.friction(i));
-    if t.abs() <= friction * n + tolerance * friction.min(1.0) && friction > 0.0 {
+    let (shear, n, friction) = (line.shear(i), line.normal(i), line.friction(i));
+    if size(shear) <= friction * n + tolerance * friction.min(1.0) && friction > 0.0 {
         NodeStatus::Stick
-    } else if t >= 0.0 {
+    } else if shear[0] >= 0.0 {
         NodeStatus::SlipForward
     } else {
         NodeStatus::SlipBackward
@@ -118,21 +118,32 @@ fn stuck_state(line: &ContactLine, i: usize, tolerance: f64) -> NodeStatus {
 
 /// State of a node that has slipped: it sticks where friction no longer opposes the slip.
 fn slipping_state(line: &ContactLine, i: usize, slipping: NodeStatus, tolerance: f64) -> NodeStatus {
-    let opposes = slipping.friction_direction() * line.state.slip[0][i] <= tolerance;
+    let Slide { direction, .. } = line.slide(i);
+    let across = line.state.slip[1].get(i).map_or(0.0, |slip| direction[1] * slip);
+    let opposes = direction[0] * line.state.slip[0][i] + across <= tolerance;
     if opposes || line.friction(i) == 0.0 { slipping } else { NodeStatus::Stick }
 }
 
 /// State of a node that has just closed: that of the nearest node that was closed `before`, or its own where it founds
 /// a patch.
 fn closing_state(line: &ContactLine, i: usize, before: &[NodeStatus]) -> NodeStatus {
+    nearest_closed(before, i).map_or_else(|| founding_state(line), |nearest| before[nearest])
+}
+
+/// Nearest node to another one that was closed `before`.
+pub(super) fn nearest_closed(before: &[NodeStatus], i: usize) -> Option<usize> {
     let left = before[..i].iter().rev().position(|s| s.is_active());
     let right = before[i + 1..].iter().position(|s| s.is_active());
     match (left, right) {
-        (Some(l), Some(r)) if r < l => before[i + 1 + r],
-        (Some(l), _) => before[i - 1 - l],
-        (None, Some(r)) => before[i + 1 + r],
-        (None, None) => founding_state(line),
+        (Some(l), Some(r)) if r < l => Some(i + 1 + r),
+        (Some(l), _) => Some(i - 1 - l),
+        (None, right) => right.map(|r| i + 1 + r),
     }
+}
+
+/// Length of a shear along and across [N/m].
+fn size(shear: [f64; 2]) -> f64 {
+    if shear[1] == 0.0 { shear[0].abs() } else { libm::hypot(shear[0], shear[1]) }
 }
 
 /// Takes the state of a node from its normal force or, if it was open `before`, from its gap; returns whether it changed.
@@ -203,7 +214,7 @@ fn is_overloaded(line: &ContactLine) -> bool {
     let nodes = 0..line.grid.len();
     let sum = |least: f64| nodes.clone().map(|i| line.normal(i).max(least)).sum::<f64>();
     let limit = sum(0.0) * line.traction.friction.coefficient;
-    let stuck = nodes.clone().filter(|&i| line.state.status[i].is_stuck()).map(|i| line.tangential(i).abs());
+    let stuck = nodes.clone().filter(|&i| line.state.status[i].is_stuck()).map(|i| size(line.shear(i)));
     stuck.sum::<f64>() > OVERLOAD * limit && line.traction.friction.coefficient > 0.0 && sum(f64::NEG_INFINITY) > 0.0
 }
 
@@ -212,6 +223,9 @@ fn is_overloaded(line: &ContactLine) -> bool {
 pub(super) fn sticks(line: &ContactLine) -> bool {
     let rate = line.problem.time.a0 * line.state.surface.iter().map(|u| u.amax()).fold(0.0, f64::max);
     let round_off = SLIP_ROUND_OFF[0] * line.speed() + SLIP_ROUND_OFF[1] * rate + SLIP_ROUND_OFF[2];
-    let stuck = line.state.status.iter().zip(&line.state.slip[0]).filter(|(status, _)| status.is_stuck());
-    stuck.map(|(_, slip)| slip.abs()).fold(0.0, f64::max) <= round_off
+    let stuck = |slip: &Vec<f64>| {
+        let stuck = line.state.status.iter().zip(slip).filter(|(status, _)| status.is_stuck());
+        stuck.map(|(_, slip)| slip.abs()).fold(0.0, f64::max)
+    };
+    line.state.slip.iter().map(stuck).fold(0.0, f64::max) <= round_off
 }

@@ -1,5 +1,5 @@
-//! Unknowns of the linear problem: of every line normal forces of the closed nodes and tangential forces of the stuck ones,
-//! and changes of the motions that are sought. Motions themselves would ask for forces thousands of times as large in the
+//! Unknowns of the linear problem: of every line normal forces of the closed nodes and shear of those that stick or turn, and
+//! changes of the motions that are sought. Motions themselves would ask for forces thousands of times as large in the
 //! elimination, since velocities of hub and rim hardly differ, and rounding with them.
 
 use super::axes::Axes;
@@ -20,11 +20,22 @@ pub(super) struct Unknowns {
 pub(super) struct LineUnknowns {
     /// Closed nodes.
     pub closed: Vec<usize>,
-    /// Stuck nodes.
-    pub stuck: Vec<usize>,
-    /// Tangential force over normal force at each of the closed nodes if it slips, with its sign; zero if it sticks
-    /// \[1].
-    pub friction: Vec<f64>,
+    /// Friction along and across over normal force at each of the closed nodes that slip; zero where they stick \[1].
+    pub friction: Vec<[f64; 2]>,
+    /// Unknown shear.
+    pub shear: Vec<ShearUnknown>,
+}
+
+/// Unknown shear at a closed node.
+#[derive(Clone, Copy)]
+pub(super) struct ShearUnknown {
+    /// Place of the node among the closed ones.
+    pub place: usize,
+    /// Its direction, along and across.
+    pub direction: [f64; 2],
+    /// Slip in this direction per force [m/s/(N/m)]: zero at a node that sticks, [`Slide::turn`](crate::contact::line::contact_line::Slide)
+    /// at one whose friction turns.
+    pub turn: f64,
 }
 
 impl Unknowns {
@@ -41,9 +52,7 @@ impl Unknowns {
         self.lines.resize_with(lines.len(), LineUnknowns::default);
         for (unknowns, line) in self.lines.iter_mut().zip(lines) {
             unknowns.list_closed(line);
-            unknowns.stuck.clear();
-            unknowns.friction.clear();
-            unknowns.friction.resize(unknowns.closed.len(), 0.0);
+            unknowns.friction.resize(unknowns.closed.len(), [0.0; 2]);
         }
         self.axes.clear();
         self.axes.extend(axes.sought().filter(|&axis| axis == Axis::Height));
@@ -66,18 +75,30 @@ impl Unknowns {
 impl LineUnknowns {
     /// Lists the unknowns of the present states.
     fn list(&mut self, line: &ContactLine) {
-        let status = &line.state.status;
         self.list_closed(line);
-        self.stuck.clear();
-        self.stuck.extend(self.closed.iter().filter(|&&i| status[i].is_stuck()));
-        self.friction.clear();
-        self.friction.extend(self.closed.iter().map(|&i| status[i].friction_direction() * line.friction(i)));
+        for (place, &i) in self.closed.iter().enumerate() {
+            let (status, friction) = (line.state.status[i], line.friction(i));
+            let mut add = |direction, turn| self.shear.push(ShearUnknown { place, direction, turn });
+            if status.is_stuck() {
+                [[1.0, 0.0], [0.0, 1.0]].into_iter().take(line.state.directions()).for_each(|unit| add(unit, 0.0));
+                self.friction.push([0.0; 2]);
+                continue;
+            }
+            let slide = line.slide(i);
+            let [along, across] = slide.direction;
+            if line.state.directions() > 1 && slide.turn.is_finite() && friction > 0.0 {
+                add([-across, along], slide.turn);
+            }
+            self.friction.push(slide.direction.map(|part| part * friction));
+        }
     }
 
     /// Lists the closed nodes alone.
     fn list_closed(&mut self, line: &ContactLine) {
         let status = &line.state.status;
         self.closed.clear();
+        self.friction.clear();
+        self.shear.clear();
         self.closed.extend((0..status.len()).filter(|&i| status[i].is_active()));
     }
 }

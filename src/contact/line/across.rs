@@ -4,7 +4,7 @@
 //! ([`crate::contact::flexibility`]); the lateral motion of the hub and the spin add to the slip.
 
 use super::alone::Alone;
-use super::contact_line::ContactLine;
+use super::contact_line::{ContactLine, Slide};
 
 impl ContactLine<'_> {
     /// Lateral force on the wheel at candidate `i` [N/m].
@@ -17,17 +17,22 @@ impl ContactLine<'_> {
         [self.tangential(i), self.lateral(i)]
     }
 
+    /// Slipping of candidate `i`, if it slips.
+    pub fn slide(&self, i: usize) -> Slide {
+        let along = || Slide { direction: [self.state.status[i].friction_direction(), 0.0], turn: 0.0 };
+        if self.state.directions() > 1 { self.iterate.slides[i] } else { along() }
+    }
+
+    /// Slip of a node in the middle per force on it [m/s/(N/m)].
+    pub fn own_slip(&self) -> f64 {
+        let (middle, mut slips) = (self.grid.len() / 2, Vec::new());
+        self.slips_by_own(0, (middle, &self.upwind_slip(middle)), &[middle], &mut slips);
+        slips.iter().sum::<f64>().abs()
+    }
+
     /// Spin velocity [rad/s].
     pub fn spin_velocity(&self) -> f64 {
         self.spin.velocity(self.traction.rigid)
-    }
-
-    /// Displacement of the wheel less that of the rail at the node `at` by a unit of lateral force at candidate `by`
-    /// [m/(N/m)].
-    pub fn lateral_flexibility(&self, at: usize, by: usize) -> f64 {
-        let node = self.grid.component(by) / 2;
-        2.0 * self.alone().by_force(2, at, node)
-            + if at == node { self.problem.layer / self.grid.width(by) } else { 0.0 }
     }
 
     /// Takes displacements and slips across under the present forces and motions.
@@ -54,7 +59,10 @@ impl ContactLine<'_> {
     }
 
     /// Takes the displacements at all nodes by the line's own lateral forces.
-    fn displace_across(&mut self) {
+    pub fn displace_across(&mut self) {
+        if self.state.directions() == 1 {
+            return;
+        }
         let Self { grid, problem, iterate, state, kernel, .. } = self;
         let (first, displaced) = (grid.component(0) / 2, &mut iterate.displaced);
         Alone { kernel: *kernel, grid }.displace(2, first, &state.lateral, displaced);

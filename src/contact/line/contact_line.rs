@@ -66,10 +66,21 @@ pub struct LineIterate {
     /// Slip velocity of the candidates along and across with centred differences [m/s]: it dissipates. The upwind one counts
     /// its own numerical dissipation.
     pub centred_slip: [Vec<f64>; 2],
+    /// Slipping of the candidates where it may have any direction.
+    pub slides: Vec<Slide>,
     /// Displacement by the own flexibility.
     pub own: OwnDisplacement,
     /// Displacement of the wheel less that of the rail by the line's own lateral forces at all nodes \[m].
     pub displaced: Vec<f64>,
+}
+
+/// Slipping of a node along and across: its friction has a direction, and turns against the slip that turns.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Slide {
+    /// Direction of friction on the wheel, of length 1.
+    pub direction: [f64; 2],
+    /// Slip across this direction per force across it that the node loses when it turns by it [m/s/(N/m)].
+    pub turn: f64,
 }
 
 impl LineScratch {
@@ -209,11 +220,6 @@ impl<'a> ContactLine<'a> {
         self.iterate.all.contact.iter().skip(1).step_by(2).sum()
     }
 
-    /// Closed candidates.
-    pub fn closed_nodes(&self) -> Vec<usize> {
-        (0..self.grid.len()).filter(|&i| self.state.status[i].is_active()).collect()
-    }
-
     /// Nodal normal force at candidate `i` [N/m].
     pub fn normal(&self, i: usize) -> f64 {
         self.state.forces[self.grid.component(i) + 1]
@@ -224,9 +230,9 @@ impl<'a> ContactLine<'a> {
         self.state.forces[self.grid.component(i)]
     }
 
-    /// True if candidate `i` carries a normal or a tangential force.
+    /// True if candidate `i` carries a force.
     pub fn is_loaded(&self, i: usize) -> bool {
-        self.normal(i) != 0.0 || self.tangential(i) != 0.0
+        self.normal(i) != 0.0 || self.shear(i) != [0.0; 2]
     }
 
     /// Friction force that candidate `i` can bear over its normal force \[1].

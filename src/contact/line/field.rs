@@ -96,11 +96,16 @@ impl ContactLine<'_> {
         0.5 * (own + by_lines.sum::<f64>())
     }
 
-    /// Slip [m/s] as a polynomial of the place by unit moments of the line number `by` of the patch; `None`: there is
-    /// no patch.
-    pub fn slip_by_moments(&self, by: usize) -> Option<ByMoments> {
+    /// Slip [m/s] along (0) or across (1) as a polynomial of the place by unit moments of the line number `by` of the patch
+    /// in the `other` direction or the same; `None`: there is no patch.
+    pub fn slip_by_moments(&self, direction: usize, by: usize, other: usize) -> Option<ByMoments> {
         let patch = self.problem.patch?;
-        let between = if by == patch.line { patch.own(0)? } else { *patch.flexibility.between(patch.line, by) };
+        let between = match direction == other {
+            false => *patch.flexibility.across(patch.line, by)?[1],
+            true if by == patch.line => patch.own(direction)?,
+            true if direction == 0 => *patch.flexibility.between(patch.line, by),
+            true => *patch.flexibility.across(patch.line, by)?[0],
+        };
         let speeds = [self.problem.time.a0, self.traction.rigid.travel + self.rim_velocity()];
         Some(between.slips(slip_of_field(speeds, patch.half_length)))
     }

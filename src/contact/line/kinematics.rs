@@ -155,13 +155,17 @@ impl ContactLine<'_> {
         [radius - grown * frame.normal(u, i) - grown * lift, along]
     }
 
-    /// Parts of the balance of an axis that unit tangential and normal forces at candidate `i` have, with the sign of inertia.
-    pub fn pull_of_forces(&self, axis: Axis, i: usize) -> [f64; 2] {
+    /// Parts of the balance of an axis that a unit normal force and unit forces along and across at candidate `i` have, with
+    /// the sign of inertia.
+    pub fn pull_of_forces(&self, axis: Axis, i: usize) -> (f64, [f64; 2]) {
         match axis {
-            Axis::Travel => [-1.0, -self.slopes().rail(i)],
-            Axis::Height => [0.0, -1.0],
-            Axis::Rotation => self.lever_arms(i),
-            Axis::Lateral => [0.0; 2],
+            Axis::Travel => (-self.slopes().rail(i), [-1.0, 0.0]),
+            Axis::Height => (-1.0, [0.0; 2]),
+            Axis::Rotation => {
+                let [tangential, normal] = self.lever_arms(i);
+                (normal, [tangential, 0.0])
+            }
+            Axis::Lateral => (0.0, [0.0, -1.0]),
         }
     }
 

@@ -105,7 +105,7 @@ impl ContactLine<'_> {
     }
 
     /// The upwind difference of the slip at a candidate: a turn of the rim tilts the surface and slows the rim.
-    fn upwind_slip(&self, i: usize) -> UpwindSlip {
+    pub fn upwind_slip(&self, i: usize) -> UpwindSlip {
         let (row, to_right) = (self.iterate.upwind.row(i), self.upstream_right());
         let (stencil, stretches) = (self.stencil(i, row, to_right), self.stretches(i, row, to_right));
         let height = |at: usize| self.frame.radius - self.frame.sagitta[at / 2];
@@ -114,11 +114,31 @@ impl ContactLine<'_> {
         UpwindSlip { stencil, stretches, by_angle }
     }
 
-    /// Writes changes of the slip at a candidate with unit tangential forces at the `closed` candidates, as far as the line alone
-    /// is displaced, in the order of these.
-    pub fn slips_by_own(&self, i: usize, upwind: &UpwindSlip, closed: &[usize], slips: &mut Vec<f64>) {
+    /// The slip across at a candidate without that by own forces [m/s], linearised like [`Self::slip_row`]: plane bodies do not
+    /// feel it.
+    pub fn slip_row_across(&self, i: usize, upwind: &UpwindSlip) -> AffineRow {
+        let (x, radius, time) = (self.grid.x[i], self.problem.radius(), &self.problem.time);
+        let own = upwind.stencil.iter().map(|(port, weight)| weight * self.iterate.displaced[port / 2]).sum::<f64>();
+        let by_speed = -0.5 * (own + self.stretch_by_lines(1, i));
+        let mut motions = PerAxis { travel: by_speed, rotation: by_speed * radius, ..PerAxis::unit(Axis::Lateral) };
+        let constant = self.state.moved[1][i].offset(time)
+            - motions.travel * self.traction.rigid.travel
+            - motions.rotation * self.traction.rigid.rotation;
+        motions.add(x, PerAxis::from_fn(|axis| self.spin.by(axis)));
+        AffineRow { motions, angle: -by_speed * radius * time.a0, constant, ..AffineRow::default() }
+    }
+
+    /// Writes changes of the slip along (0) or across (1) at a candidate with unit forces in this direction at the `closed`
+    /// candidates, as far as the line alone is displaced, in the order of these.
+    pub fn slips_by_own(
+        &self,
+        direction: usize,
+        (i, upwind): (usize, &UpwindSlip),
+        closed: &[usize],
+        slips: &mut Vec<f64>,
+    ) {
         let (grid, gain) = (self.grid, self.problem.time.a0);
-        let along = grid.unscaled(self.kernel.tangential);
+        let along = grid.unscaled(self.kernel.along(2 * direction));
         let carried = self.traction.rigid.travel + self.rim_velocity();
         let (node, nodes) = (i + grid.guard, grid.logarithms.nrows());
         let constant = 2.0 * gain * along.factor * along.reach;
