@@ -7,13 +7,12 @@
 //! longer and is the same but for the tolerance of the edges: forces on a rough rail change by 1.4e-5.
 
 use super::axes::Axes;
+use super::drawn::Present;
 use super::linear::LinearSolver;
 use super::pressing::{PressureSearch, Thoroughness};
 use super::states::Rules;
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::exchange;
-use crate::contact::line::state::NodeStatus;
-use nalgebra::DVector;
 
 /// Extent of the search: yielding stays as it is.
 const GUESSED: Thoroughness = Thoroughness { most: 6, together: 6, yields: false };
@@ -21,29 +20,7 @@ const GUESSED: Thoroughness = Thoroughness { most: 6, together: 6, yields: false
 /// Memory of the guess.
 #[derive(Default)]
 pub struct Guess {
-    starts: Vec<LineBefore>,
-}
-
-/// A line before the guess.
-#[derive(Default)]
-struct LineBefore {
-    status: Vec<NodeStatus>,
-    forces: DVector<f64>,
-    height: f64,
-}
-
-impl LineBefore {
-    fn take(&mut self, line: &ContactLine) {
-        self.status.clone_from(&line.state.status);
-        self.forces.clone_from(&line.state.forces);
-        self.height = line.traction.rigid.height;
-    }
-
-    fn give_back(&self, line: &mut ContactLine) {
-        line.state.status.clone_from(&self.status);
-        line.state.forces.clone_from(&self.forces);
-        line.traction.rigid.height = self.height;
-    }
+    starts: Vec<Present>,
 }
 
 impl Guess {
@@ -62,7 +39,7 @@ impl Guess {
         if lines.iter().all(skipped) {
             return;
         }
-        self.starts.resize_with(lines.len(), LineBefore::default);
+        self.starts.resize_with(lines.len(), Present::default);
         self.starts.iter_mut().zip(&*lines).for_each(|(start, line)| start.take(line));
         if !matches!(pressing.press(lines, axes, rules, GUESSED, solver), Ok(true)) {
             self.starts.iter().zip(lines).for_each(|(start, line)| start.give_back(line));

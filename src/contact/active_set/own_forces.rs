@@ -178,9 +178,12 @@ impl<const C: usize> OwnForces<C> {
             let ShearUnknown { place, direction, turn } = self.unknown[r];
             let i = unknowns.closed[place];
             let node = at.take_if(|(before, _)| *before == place);
-            let (_, node) = at.insert(node.unwrap_or_else(|| (place, self.node_rows(line, (i, &unknowns.closed), bodies))));
+            let (_, node) =
+                at.insert(node.unwrap_or_else(|| (place, self.node_rows(line, (i, &unknowns.closed), bodies))));
             let mut sides = [0.0; C];
-            for (d, (part, affine)) in direction.into_iter().zip(&node.affine).enumerate().filter(|(_, (p, _))| *p != 0.0) {
+            for (d, (part, affine)) in
+                direction.into_iter().zip(&node.affine).enumerate().filter(|(_, (p, _))| *p != 0.0)
+            {
                 let equation = axes.equation(*affine);
                 sides[KNOWN] -= part * (equation.constant + equation.motions.dot(line.traction.rigid));
                 add(-part, &affine.ports, &mut sides[PORTS]);
@@ -206,6 +209,10 @@ impl<const C: usize> OwnForces<C> {
                 *value = parts.filter(|((a, b), _)| **a * b != 0.0).map(|((a, b), row)| a * b * row[other.place]).sum();
             }
             row[r] += turn;
+            if let Some(drawn) = &line.iterate.drawn {
+                row[r] += drawn.strength;
+                sides[KNOWN] += drawn.strength * (direction[0] * drawn.shear[i][0] + direction[1] * drawn.shear[i][1]);
+            }
             self.sheared.push([sides]);
         }
         self.shear.factorise() && self.shear.solve_with_all(&mut self.sheared)

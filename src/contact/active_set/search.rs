@@ -9,6 +9,7 @@
 
 use super::axes::Axes;
 use super::coefficients::{FollowedLaws, Obedience, Progress};
+use super::drawn::Present;
 use super::guess::Guess;
 use super::linear::LinearSolver;
 use super::pressing::PressureSearch;
@@ -74,6 +75,8 @@ pub(super) struct SearchMemory {
     unknowns: Unknowns,
     /// States before an update.
     before: Vec<NodeStatus>,
+    /// What the search has begun with.
+    begun: Vec<Present>,
     pub pressing: PressureSearch,
     guess: Guess,
     pub solver: LinearSolver,
@@ -137,16 +140,28 @@ impl<'a> ActiveSet<'a> {
             }
             slides::begin(line);
         }
-        let laws = FollowedLaws::begin(&mut self.lines);
+        let mut laws = FollowedLaws::begin(&mut self.lines);
         self.guess_closed();
         for line in &mut self.lines {
             line.begin_upwind();
             line.take_surface_angle();
             line.frame.rim_angle = line.predicted_angle();
+            line.iterate.own_slip = if line.state.directions() > 1 { line.own_slip() } else { 0.0 };
         }
         self.begin_states();
+        self.support();
         self.open_apart()?;
-        let iterations = self.find_states(laws)?;
+        let mut begun = std::mem::take(&mut self.memory.begun);
+        self.remember(&mut begun);
+        let turns = self.lines.iter().any(|line| line.state.directions() > 1);
+        let found = self.find_states(Some(&mut laws), if turns { TOGETHER } else { MAX_ITERATIONS });
+        let found = found.or_else(|error| {
+            let ContactError::NotConverged { .. } = error else { return Err(error) };
+            self.go_back(&begun);
+            self.draw(&mut laws)
+        });
+        self.memory.begun = begun;
+        let iterations = found?;
         self.lines.iter_mut().for_each(|line| line.traction.iterations = iterations);
         self.lines.iter().try_for_each(zone::check)?;
         finish::finish(&mut self.lines);
@@ -188,11 +203,11 @@ impl<'a> ActiveSet<'a> {
 
     /// Finds the states of all nodes at the friction coefficients of their slips; returns the iterations until states were
     /// settled at first.
-    fn find_states(&mut self, mut laws: FollowedLaws) -> Result<usize, ContactError> {
+    pub fn find_states(&mut self, mut laws: Option<&mut FollowedLaws>, most: usize) -> Result<usize, ContactError> {
         let (mut settled, mut first, mut decided, mut balancing) = (false, true, 0, 0);
         // Iterations at the coefficients of settled states.
         let mut iteration = 0;
-        while iteration < MAX_ITERATIONS {
+        while iteration < most {
             iteration += 1;
             if RESTARTS.contains(&iteration) {
                 for line in &mut self.lines {
@@ -218,7 +233,8 @@ impl<'a> ActiveSet<'a> {
                 false if iteration <= STRICT_ITERATIONS => Progress::Searching,
                 false => continue,
             };
-            match laws.follow(&mut self.lines, progress)? {
+            let obedience = laws.as_mut().map(|laws| laws.follow(&mut self.lines, progress)).transpose()?;
+            match obedience.unwrap_or(Obedience::Obeyed) {
                 Obedience::Moved if settled => iteration = 0,
                 Obedience::Obeyed if refined => {
                     if balancing == MOST_BALANCING || self.turns_balance() {
@@ -229,7 +245,7 @@ impl<'a> ActiveSet<'a> {
                 _ => {}
             }
         }
-        Err(ContactError::NotConverged { iterations: MAX_ITERATIONS })
+        Err(ContactError::NotConverged { iterations: most })
     }
 
     /// True if the moments balance with the lever arms of the present iterate, too: it was found with those before.
@@ -273,10 +289,14 @@ impl<'a> ActiveSet<'a> {
             }
         }
         let braked = axes.update_brakes(lines, tolerance * grid.len() as f64);
-        // A static problem needs a support.
-        let held = problem.rigid.height.gain != 0.0 || !axes.seeks(Axis::Height);
-        let closed = !held && states::support(lines);
-        (closed || changed || braked, missed)
+        let supported = self.support();
+        (supported || changed || braked, missed)
+    }
+
+    /// Closes a node where there is none and a static problem needs a support; returns whether it did.
+    fn support(&mut self) -> bool {
+        let held = self.problem.rigid.height.gain != 0.0 || !self.axes.seeks(Axis::Height);
+        !held && states::support(&mut self.lines)
     }
 
     /// True if the material moves by so little in the step that it does not matter where it comes from.

@@ -32,10 +32,10 @@ pub(super) fn turn(line: &mut ContactLine, before: &[NodeStatus]) -> f64 {
     }
     let bears = |line: &ContactLine, i: usize| line.friction(i) * line.normal(i).max(0.0);
     let most = (0..line.grid.len()).map(|i| bears(line, i)).fold(0.0, f64::max);
-    let (slides, own_slip, mut missed) = (line.iterate.slides.clone(), line.own_slip(), 0.0_f64);
+    let (slides, own_slip, mut missed) = (line.iterate.slides.clone(), line.iterate.own_slip, 0.0_f64);
     for i in (0..line.grid.len()).filter(|&i| line.state.status[i].friction_direction() != 0.0) {
         let (friction, shear) = (bears(line, i), line.shear(i));
-        let drawn = Polar::of([0, 1].map(|d| shear[d] - line.state.slip[d][i] / own_slip));
+        let drawn = Polar::of(line.shear_without_slip(i).unwrap_or(shear));
         line.iterate.slides[i] = match (before[i].is_active(), drawn.direction) {
             (true, Some(direction)) if friction > 0.0 => {
                 let off = [0, 1].map(|d| shear[d] - friction * direction[d]);

@@ -6,7 +6,7 @@
 //!   through stick; a node that closes takes the state of its nearest closed neighbour and sticks where it has none,
 //!   unless the surfaces run against each other. Without these rules the iteration cycles.
 
-use crate::contact::line::contact_line::{ContactLine, Slide};
+use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::{GridState, NodeStatus};
 
 /// Tolerance of nodal forces in mean nodal loads, at first and at most.
@@ -118,9 +118,10 @@ fn stuck_state(line: &ContactLine, i: usize, tolerance: f64) -> NodeStatus {
 
 /// State of a node that has slipped: it sticks where friction no longer opposes the slip.
 fn slipping_state(line: &ContactLine, i: usize, slipping: NodeStatus, tolerance: f64) -> NodeStatus {
-    let Slide { direction, .. } = line.slide(i);
-    let across = line.state.slip[1].get(i).map_or(0.0, |slip| direction[1] * slip);
-    let opposes = direction[0] * line.state.slip[0][i] + across <= tolerance;
+    let opposes = match line.shear_without_slip(i) {
+        Some(drawn) => size(drawn) >= line.friction(i) * line.normal(i),
+        None => slipping.friction_direction() * line.state.slip[0][i] <= tolerance,
+    };
     if opposes || line.friction(i) == 0.0 { slipping } else { NodeStatus::Stick }
 }
 

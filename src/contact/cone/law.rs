@@ -206,23 +206,6 @@ impl<const N: usize, const D: usize> ConeProblem<N, D> {
         known.iter_mut().zip(slips.as_flattened()).for_each(|(known, slip)| *known += slip);
     }
 
-    /// Takes the friction that points bear, and `slips` under a present shear, beside which others are polynomials.
-    pub fn renew(
-        &mut self,
-        slips: ByDirection<N, D>,
-        bears: [f64; N],
-        shear: &ByDirection<N, D>,
-        others: &Polynomials<D>,
-    ) {
-        self.rows.known = [[0.0; N]; D];
-        let linear = self.rows.slips(shear, others);
-        self.rows.known = std::array::from_fn(|c| {
-            std::array::from_fn(|i| if bears[i] > 0.0 { slips[c][i] - linear[c][i] } else { 0.0 })
-        });
-        self.most = bears.iter().fold(0.0, |most, bears| most.max(*bears));
-        self.bears = bears;
-    }
-
     /// Force [N/m] by which the points resist a unit of slip, each for itself [kg/(m s)].
     pub fn resistance(&self) -> f64 {
         self.moments[0].iter().zip(&self.least).map(|(weight, least)| weight / least).sum()

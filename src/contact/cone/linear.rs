@@ -201,13 +201,6 @@ pub struct TangentialCoupling<const D: usize> {
     pub friction: f64,
 }
 
-impl<const D: usize> TangentialCoupling<D> {
-    /// Slips of a line by given moments of the shear of all lines.
-    pub fn by_lines(&self, at: usize, moments: &[Polynomials<D>]) -> Polynomials<D> {
-        sum_between(&self.between, at, moments)
-    }
-}
-
 /// Tangential problems of all lines, what they do to each other, and what the balances of the motions that are free miss
 /// [N/m, N].
 pub struct ConeProblems<'a, const N: usize, const D: usize> {

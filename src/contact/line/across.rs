@@ -30,6 +30,14 @@ impl ContactLine<'_> {
         slips.iter().sum::<f64>().abs()
     }
 
+    /// Shear less what would take the slip away from candidate `i` by itself [N/m]: against it the law of friction is judged
+    /// where it may have any direction; `None`: it has one.
+    pub fn shear_without_slip(&self, i: usize) -> Option<[f64; 2]> {
+        let [along, across] = &self.state.slip;
+        let (across, shear) = (across.get(i)?, self.shear(i));
+        Some([shear[0] - along[i] / self.iterate.own_slip, shear[1] - across / self.iterate.own_slip])
+    }
+
     /// Spin velocity [rad/s].
     pub fn spin_velocity(&self) -> f64 {
         self.spin.velocity(self.traction.rigid)

@@ -68,10 +68,36 @@ pub struct LineIterate {
     pub centred_slip: [Vec<f64>; 2],
     /// Slipping of the candidates where it may have any direction.
     pub slides: Vec<Slide>,
+    /// Slip of a node in the middle per force on it [m/s/(N/m)], by which the law of friction is judged there.
+    pub own_slip: f64,
+    /// Shear to which the line is drawn, if it is.
+    pub drawn: Option<Drawn>,
     /// Displacement by the own flexibility.
     pub own: OwnDisplacement,
     /// Displacement of the wheel less that of the rail by the line's own lateral forces at all nodes \[m].
     pub displaced: Vec<f64>,
+}
+
+/// Shear to which a line is drawn: what its nodes are away from it adds to their slip.
+#[derive(Debug)]
+pub struct Drawn {
+    /// Slip per force away from it [m/s/(N/m)].
+    pub strength: f64,
+    /// Shear along and across at the candidates [N/m].
+    pub shear: Vec<[f64; 2]>,
+}
+
+impl Drawn {
+    /// Draws a line to its present shear, `strength` times as much as the slip of a node resists its own shear.
+    pub fn to(line: &ContactLine, strength: f64) -> Self {
+        let shear = (0..line.grid.len()).map(|i| line.shear(i)).collect();
+        Self { strength: strength * line.own_slip(), shear }
+    }
+
+    /// Slip that it adds at candidate `i` under a shear [m/s].
+    pub fn slip(&self, i: usize, shear: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|d| self.strength * (shear[d] - self.shear[i][d]))
+    }
 }
 
 /// Slipping of a node along and across: its friction has a direction, and turns against the slip that turns.
@@ -182,6 +208,7 @@ impl<'a> ContactLine<'a> {
         if !problem.limits.is_limited() {
             state.yielded.fill(false);
         }
+        iterate.drawn = None;
         iterate.lift.clear();
         iterate.overlap.clear();
         iterate.overlap.resize(grid.len(), 0.0);

@@ -79,6 +79,17 @@ impl ContactLine<'_> {
         if self.state.directions() > 1 {
             self.evaluate_across();
         }
+        self.draw();
+    }
+
+    /// Adds to the slips what the line is away from the shear to which it is drawn.
+    fn draw(&mut self) {
+        let Some(drawn) = &self.iterate.drawn else { return };
+        for i in (0..self.grid.len()).filter(|&i| self.state.status[i].is_active()) {
+            let slips = drawn.slip(i, self.shear(i));
+            let slips = self.state.slip.iter_mut().zip(slips);
+            slips.for_each(|(slip, drawn)| slip.get_mut(i).into_iter().for_each(|slip| *slip += drawn));
+        }
     }
 
     /// Gaps at open candidates under the present displacements and weights of the rim angle.
