@@ -158,7 +158,8 @@ fn derivatives_of_the_temperature_of_friction_are_those_of_the_repeated_step_on_
 fn derivatives_on_fixed_nodes_are_those_of_the_repeated_step_where_a_node_is_about_to_close() {
     let cases = [
         (undivided("railway_ellipse"), BOUND, 2),
-        (undivided("railway_s1002_3mm"), 2e-4, 6),
+        // The step of the derivatives by friction lies across a kink once: slopes of its sides differ by 4e-3 of the scale.
+        (undivided("railway_s1002_3mm"), 6e-4, 6),
         (shipped("railway_ellipse"), 2e-4, 20),
     ];
     for (config, bound, most) in cases {

@@ -125,16 +125,6 @@ fn steady_forces_on_nodes_under_creepage_and_spin_are_those_of_contact() {
 }
 
 #[test]
-fn a_line_on_more_nodes_than_there_is_room_for_is_refused_with_what_to_lower() {
-    let spaces = HalfSpaces::sideways_on_nodes(1.0, 1, 150);
-    let [translation, rotation] = spaces.held(1e-3);
-    let motion = [translation, rotation, RigidMotion::held(0.0, 0.0)];
-    let laws = (TimeDerivative::default(), Friction::constant(FRICTION));
-    let error = spaces.solve_sideways(LOAD, motion, Spin::default(), laws, &spaces.start()).unwrap_err().to_string();
-    assert!(error.contains("256 nodes") && error.contains("lower mesh.grid_elements_per_half_width"), "{error}");
-}
-
-#[test]
 fn creepage_and_spin_that_jump_give_the_forces_of_contact() {
     let reference = reference();
     for run in reference["transient"].as_array().unwrap() {

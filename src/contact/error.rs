@@ -29,15 +29,6 @@ pub enum ContactError {
         /// Property of the contact that it cannot describe.
         reason: &'static str,
     },
-    /// A contact with lateral creepage and spin on too many nodes.
-    #[error(
-        "more than {most} nodes of a line touch, which is the most with contact.lateral: lower \
-         mesh.grid_elements_per_half_width, or set contact.lateral to false"
-    )]
-    Sideways {
-        /// Most nodes of a line that may touch.
-        most: usize,
-    },
     /// The solver takes one contact line.
     #[error("this contact solver takes one contact line, not {lines}")]
     SingleLine {

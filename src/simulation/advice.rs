@@ -3,7 +3,6 @@
 use super::validity::ZONE_LOAD;
 use super::{Inputs, PrepareError, StepError, start};
 use crate::config::Config;
-use crate::contact::ContactError;
 use crate::fem::FemError;
 use crate::heat::HeatError;
 use crate::linalg::LinalgError;
@@ -20,8 +19,6 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
         StepError::ZoneExceeded { load, zone: reached } => zone(*load, config)
             .or_else(|| uneven(*reached, config))
             .unwrap_or_else(|| flattened(*reached, config, shorter)),
-        // It says itself what to set.
-        StepError::Contact { source: ContactError::Sideways { .. }, .. } => return error.to_string(),
         error if error.wants_a_grid() => grid(),
         StepError::Contact { .. } | StepError::NotFinite { .. } => unsettled(shorter, config),
         StepError::Heat(HeatError::Input { .. }) => shorter,
@@ -65,7 +62,6 @@ pub fn failed_start(error: &StepError, config: &Config, inputs: &Inputs) -> Stri
         StepError::Unpressed { .. } => {
             "set drive.load above 0, or control.vertical = displacement to hold the hub at a height".to_owned()
         }
-        StepError::Contact { source: ContactError::Sideways { .. }, .. } => return error.to_string(),
         error if error.wants_a_grid() => grid(),
         StepError::Contact { .. } | StepError::NotFinite { .. } | StepError::Unsettled => {
             unsettled(start::gentler(config, inputs), config)

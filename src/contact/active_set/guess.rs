@@ -7,8 +7,8 @@
 //! longer and is the same but for the tolerance of the edges: forces on a rough rail change by 1.4e-5.
 
 use super::axes::Axes;
-use super::drawn::Present;
 use super::linear::LinearSolver;
+use super::present::{self, Present};
 use super::pressing::{PressureSearch, Thoroughness};
 use super::states::Rules;
 use crate::contact::line::contact_line::ContactLine;
@@ -39,10 +39,9 @@ impl Guess {
         if lines.iter().all(skipped) {
             return;
         }
-        self.starts.resize_with(lines.len(), Present::default);
-        self.starts.iter_mut().zip(&*lines).for_each(|(start, line)| start.take(line));
+        present::take(lines, &mut self.starts);
         if !matches!(pressing.press(lines, axes, rules, GUESSED, solver), Ok(true)) {
-            self.starts.iter().zip(lines).for_each(|(start, line)| start.give_back(line));
+            present::give_back(&self.starts, lines);
             return;
         }
         lines.iter_mut().for_each(slide);

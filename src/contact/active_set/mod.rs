@@ -3,7 +3,7 @@
 //! The driver of a [line](crate::contact::line): [`search`] iterates, [`states`] has the rules by which nodes open,
 //! close, stick and slip, [`slides`] the directions in which they do where shear has a lateral part, [`unknowns`] the unknowns of given states, [`linear`] finds them around the [`own_forces`] of every
 //! line, [`axes`] has the balances of the rigid motions, [`coefficients`] the friction that follows its law, [`pressing`] the
-//! normal problem by itself, [`guess`] where it starts, and [`drawn`] the way where it ends nowhere. [`solver`] is the contact solver that uses it. Theory: `docs/theory/contact.md`.
+//! normal problem by itself, [`guess`] where it starts, and [`drawn`] the way where it ends nowhere; [`present`] keeps iterates. [`solver`] is the contact solver that uses it. Theory: `docs/theory/contact.md`.
 
 mod axes;
 mod coefficients;
@@ -11,6 +11,7 @@ mod drawn;
 mod guess;
 mod linear;
 mod own_forces;
+mod present;
 mod pressing;
 mod search;
 mod slides;

@@ -4,13 +4,14 @@
 //! line answers them by a few columns of forces around the factors of its own flexibility: that of the pressures at closed
 //! nodes, and that of the shear at stuck ones, which pressures reach through friction at those that slip.
 
-use super::axes::Axes;
+use super::axes::{Axes, Equation};
 use super::unknowns::{LineUnknowns, ShearUnknown};
 use crate::axes::Axis;
 use crate::contact::flexibility::ByPowers;
 use crate::contact::kernel::Logarithm;
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::rows::{AffineRow, BodyRows, UpwindSlip};
+use crate::linalg::vectorised::{add_multiples, vectorised};
 use crate::linalg::{DenseSystem, POINTS};
 use nalgebra::DMatrix;
 use std::ops::Range;
@@ -82,6 +83,22 @@ pub fn add(factor: f64, of: &[f64], sum: &mut [f64]) {
     sum.iter_mut().zip(of).for_each(|(sum, value)| *sum += factor * value);
 }
 
+vectorised! {
+    /// Adds sums over the nodes of their columns, times factors.
+    fn add_products<'a, S, const W: usize, const N: usize>(
+        simd,
+        factors: &'a [[f64; N]],
+        columns: &'a [[[f64; W]; 1]],
+        sums: &'a mut [[f64; W]; N],
+    ) {
+        for (factors, column) in factors.iter().zip(columns) {
+            for k in 0..N {
+                add_multiples(simd, [factors[k]], column, &mut sums[k]);
+            }
+        }
+    }
+}
+
 impl<const C: usize> OwnForces<C> {
     /// Takes the forces in given states; whether there are any that are finite. With `given` tangential forces at the
     /// candidates, only the pressures are unknown.
@@ -103,8 +120,8 @@ impl<const C: usize> OwnForces<C> {
             self.given.extend(self.nodes.iter().map(|&i| given[i]));
         }
         self.powers.clear();
-        if let Some(patch) = line.problem.patch {
-            self.powers.extend(self.nodes.iter().map(|&i| patch.powers(line.grid.x[i])));
+        if line.problem.patch.is_some() {
+            self.powers.extend(self.nodes.iter().map(|&i| line.given.powers[i]));
         }
         let bodies = line.body_rows();
         let pressed = self.press(line, unknowns, (axes, &bodies));
@@ -173,21 +190,22 @@ impl<const C: usize> OwnForces<C> {
     ) -> bool {
         self.unknown.extend_from_slice(&unknowns.shear);
         self.shear.reset(self.unknown.len());
-        let mut at = None;
+        let mut at: Option<(usize, NodeRows)> = None;
         for r in 0..self.unknown.len() {
             let ShearUnknown { place, direction, turn } = self.unknown[r];
             let i = unknowns.closed[place];
-            let node = at.take_if(|(before, _)| *before == place);
-            let (_, node) =
-                at.insert(node.unwrap_or_else(|| (place, self.node_rows(line, (i, &unknowns.closed), bodies))));
+            if at.as_ref().is_none_or(|(before, _)| *before != place) {
+                at = Some((place, self.node_rows(line, axes, (i, &unknowns.closed), bodies)));
+            }
+            let Some((_, node)) = &at else { return false };
             let mut sides = [0.0; C];
-            for (d, (part, affine)) in
-                direction.into_iter().zip(&node.affine).enumerate().filter(|(_, (p, _))| *p != 0.0)
-            {
-                let equation = axes.equation(*affine);
+            for (d, (part, (equation, angle))) in direction.into_iter().zip(&node.equations).enumerate() {
+                if part == 0.0 {
+                    continue;
+                }
                 sides[KNOWN] -= part * (equation.constant + equation.motions.dot(line.traction.rigid));
-                add(-part, &affine.ports, &mut sides[PORTS]);
-                sides[ANGLE] -= part * affine.angle;
+                add(-part, &equation.ports, &mut sides[PORTS]);
+                sides[ANGLE] -= part * angle;
                 sides[MOTIONS].iter_mut().zip(sought).for_each(|(side, &axis)| *side -= part * equation.motions[axis]);
                 if let Some(powers) = self.powers.get(place) {
                     add(-part, powers, &mut sides[FELT[d].clone()]);
@@ -204,9 +222,11 @@ impl<const C: usize> OwnForces<C> {
                 }
             }
             let row = self.shear.row(r).0;
-            for (value, other) in row.iter_mut().zip(&self.unknown) {
-                let parts = direction.iter().zip(other.direction).zip(&self.rows);
-                *value = parts.filter(|((a, b), _)| **a * b != 0.0).map(|((a, b), row)| a * b * row[other.place]).sum();
+            for (d, slips) in self.rows.iter().enumerate().filter(|(d, _)| direction[*d] != 0.0) {
+                let part = direction[d];
+                row.iter_mut()
+                    .zip(&self.unknown)
+                    .for_each(|(value, of)| *value += part * of.direction[d] * slips[of.place]);
             }
             row[r] += turn;
             if let Some(drawn) = &line.iterate.drawn {
@@ -219,7 +239,13 @@ impl<const C: usize> OwnForces<C> {
     }
 
     /// Slips of closed node `i` by what the line feels; those by the shear of the closed nodes go into [`Self::rows`].
-    fn node_rows(&mut self, line: &ContactLine, (i, closed): (usize, &[usize]), bodies: &BodyRows) -> NodeRows {
+    fn node_rows(
+        &mut self,
+        line: &ContactLine,
+        axes: &Axes,
+        (i, closed): (usize, &[usize]),
+        bodies: &BodyRows,
+    ) -> NodeRows {
         let (along, upwind) = line.slip_row(i, bodies);
         let mut affine = [along, AffineRow::default()];
         for direction in 0..line.state.directions() {
@@ -228,7 +254,7 @@ impl<const C: usize> OwnForces<C> {
         if line.state.directions() > 1 {
             affine[1] = line.slip_row_across(i, &upwind);
         }
-        NodeRows { affine, upwind }
+        NodeRows { equations: affine.map(|row| (axes.equation(row), row.angle)), upwind }
     }
 
     /// Sum over the nodes of normal forces and shear along and across, times factors.
@@ -249,30 +275,22 @@ impl<const C: usize> OwnForces<C> {
 
     /// Sums over the nodes of normal forces, times values there.
     pub fn sums_of_pressures(&self, values: impl Fn(usize) -> [f64; POINTS]) -> [Felt<C>; POINTS] {
-        let mut sums = [[0.0; PRESSED]; POINTS];
-        for (place, [pressed]) in self.pressed.iter().enumerate() {
-            sums.iter_mut().zip(values(place)).for_each(|(sum, value)| add(value, pressed, sum));
-        }
+        let (factors, mut sums) = ((0..self.pressed.len()).map(values).collect::<Vec<_>>(), [[0.0; PRESSED]; POINTS]);
+        add_products(&factors, &self.pressed, &mut sums);
         sums.map(widened)
     }
 
     /// Sums over the nodes of shear along (0) or across (1), times values there.
     #[inline(never)]
     pub fn sums_of_shear(&self, direction: usize, values: impl Fn(usize) -> [f64; POINTS]) -> [Felt<C>; POINTS] {
+        let of_pressures = |(k, by): (usize, &[f64; 2])| values(k).map(|value| value * by[direction]);
         let mut slipping = [[0.0; PRESSED]; POINTS];
-        for (place, (friction, [pressed])) in self.friction.iter().zip(&self.pressed).enumerate() {
-            let friction = friction[direction];
-            if friction != 0.0 {
-                slipping.iter_mut().zip(values(place)).for_each(|(sum, value)| add(friction * value, pressed, sum));
-            }
-        }
+        let mut factors: Vec<_> = self.friction.iter().enumerate().map(of_pressures).collect();
+        add_products(&factors, &self.pressed, &mut slipping);
         let mut sums = slipping.map(widened);
-        for (unknown, [sheared]) in self.unknown.iter().zip(&self.sheared) {
-            let part = unknown.direction[direction];
-            if part != 0.0 {
-                sums.iter_mut().zip(values(unknown.place)).for_each(|(sum, value)| add(part * value, sheared, sum));
-            }
-        }
+        factors.clear();
+        factors.extend(self.unknown.iter().map(|of| values(of.place).map(|value| value * of.direction[direction])));
+        add_products(&factors, &self.sheared, &mut sums);
         for (place, force) in self.given.iter().enumerate().filter(|_| direction == 0) {
             sums.iter_mut().zip(values(place)).for_each(|(sum, value)| sum[KNOWN] += value * force);
         }
@@ -302,7 +320,8 @@ impl<const C: usize> OwnForces<C> {
 
 /// Slips of a node along and across by what its line feels.
 struct NodeRows {
-    affine: [AffineRow; 2],
+    /// As equations, with their coefficients of the rim angle.
+    equations: [(Equation, f64); 2],
     upwind: UpwindSlip,
 }
 

@@ -9,9 +9,9 @@
 
 use super::axes::Axes;
 use super::coefficients::{FollowedLaws, Obedience, Progress};
-use super::drawn::Present;
 use super::guess::Guess;
 use super::linear::LinearSolver;
+use super::present::{self, Present};
 use super::pressing::PressureSearch;
 use super::slides;
 use super::states::{self, Rules};
@@ -75,7 +75,7 @@ pub(super) struct SearchMemory {
     unknowns: Unknowns,
     /// States before an update.
     before: Vec<NodeStatus>,
-    /// What the search has begun with.
+    /// States, forces and motions with which the search has begun.
     begun: Vec<Present>,
     pub pressing: PressureSearch,
     guess: Guess,
@@ -152,12 +152,12 @@ impl<'a> ActiveSet<'a> {
         self.support();
         self.open_apart()?;
         let mut begun = std::mem::take(&mut self.memory.begun);
-        self.remember(&mut begun);
+        present::take(&self.lines, &mut begun);
         let turns = self.lines.iter().any(|line| line.state.directions() > 1);
         let found = self.find_states(Some(&mut laws), if turns { TOGETHER } else { MAX_ITERATIONS });
         let found = found.or_else(|error| {
             let ContactError::NotConverged { .. } = error else { return Err(error) };
-            self.go_back(&begun);
+            present::give_back(&begun, &mut self.lines);
             self.draw(&mut laws)
         });
         self.memory.begun = begun;

@@ -50,7 +50,7 @@ impl Alone<'_> {
         }
         for component in 0..2 {
             of_component.clear();
-            of_component.extend(forces.iter().skip(component).step_by(2));
+            of_component.extend(forces.as_chunks::<2>().0.iter().map(|force| force[component]));
             self.displace(component, 0, of_component, displaced);
             let nodes = along.as_mut_slice().as_chunks_mut::<2>().0;
             nodes.iter_mut().zip(&*displaced).for_each(|(node, moved)| node[component] = *moved);
@@ -73,9 +73,12 @@ impl OwnDisplacement {
 
     /// Adds the displacements of wheel and rail by these forces on the wheel and their opposites on the rail.
     pub fn add_between(&self, [wheel, rail]: [&mut DVector<f64>; 2]) {
-        self.add_to(0, wheel);
-        let moved = self.along.iter().zip(self.across.iter()).map(|(along, across)| across - along);
-        rail.iter_mut().zip(moved).for_each(|(value, moved)| *value += moved);
+        let (wheel, rail) = (wheel.as_mut_slice().iter_mut(), rail.as_mut_slice().iter_mut());
+        let own = self.along.as_slice().iter().zip(self.across.as_slice());
+        for ((wheel, rail), (along, across)) in wheel.zip(rail).zip(own) {
+            *wheel += along + across;
+            *rail += across - along;
+        }
     }
 
     /// Work of forces on the way of wheel (0) or rail (1) [N/m times m].

@@ -60,9 +60,9 @@ pub struct LineIterate {
     pub retarded: Retarded,
     /// Depth by which yielding candidates have given way in the step; zero elsewhere \[m].
     pub overlap: Vec<f64>,
-    /// Height at the candidates that the flexibility of the line alone would have if it were the same in both
-    /// directions, less that which it has \[m]; empty: it is.
-    pub lift: Vec<f64>,
+    /// Height that the flexibility of the line alone would have if it were the same in both directions, less that which it
+    /// has: the same everywhere \[m], and per displacement by normal forces \[1].
+    pub lift: [f64; 2],
     /// Slip velocity of the candidates along and across with centred differences [m/s]: it dissipates. The upwind one counts
     /// its own numerical dissipation.
     pub centred_slip: [Vec<f64>; 2],
@@ -209,7 +209,7 @@ impl<'a> ContactLine<'a> {
             state.yielded.fill(false);
         }
         iterate.drawn = None;
-        iterate.lift.clear();
+        iterate.lift = [0.0; 2];
         iterate.overlap.clear();
         iterate.overlap.resize(grid.len(), 0.0);
         iterate.centred_slip.iter_mut().for_each(|slip| slip.resize(grid.len(), 0.0));

@@ -9,11 +9,9 @@ impl ContactLine<'_> {
     /// Moments of the line's own forces along (0) or across (1) with the powers of their places [N/m].
     pub fn moments_of_shear(&self, direction: usize) -> ByPowers {
         let mut moments = ByPowers::default();
-        let Some(patch) = self.problem.patch.filter(|_| direction < self.state.directions()) else { return moments };
-        for i in 0..self.grid.len() {
+        for (i, powers) in self.given.powers.iter().enumerate() {
             let force = self.shear(i)[direction];
             if force != 0.0 {
-                let powers = patch.powers(self.grid.x[i]);
                 moments.iter_mut().zip(powers).for_each(|(moment, power)| *moment += force * power);
             }
         }
@@ -22,14 +20,13 @@ impl ContactLine<'_> {
 
     /// Displacement of the wheel less that of the rail at a candidate along (0) or across (1) by the lines of the patch \[m].
     pub fn moved_by_lines(&self, direction: usize, i: usize) -> f64 {
-        let moved = |powers| at(&self.iterate.fields[direction].displacement, &powers);
-        self.problem.patch.map_or(0.0, |patch| moved(patch.powers(self.grid.x[i])))
+        self.given.powers.get(i).map_or(0.0, |powers| at(&self.iterate.fields[direction].displacement, powers))
     }
 
     /// Slope along the line of that displacement \[1]: half of it is the strain of the wheel, the other half that of the rail.
     pub fn stretch_by_lines(&self, direction: usize, i: usize) -> f64 {
         let Some(patch) = self.problem.patch else { return 0.0 };
-        at(&self.iterate.fields[direction].strain, &patch.powers(self.grid.x[i])) / patch.half_length
+        at(&self.iterate.fields[direction].strain, &self.given.powers[i]) / patch.half_length
     }
 
     /// Displacement of the wheel less that of the rail at a candidate along (0) or across (1) \[m].
@@ -68,7 +65,7 @@ impl ContactLine<'_> {
             let moved = self.moved(direction, i);
             self.state.moved[direction][i].reach(&time, moved);
         }
-        let LineProblem { patch: Some(patch), size: Some(_), .. } = *self.problem else { return };
+        let LineProblem { patch: Some(_), size: Some(_), .. } = *self.problem else { return };
         let widened = &mut self.state.widened[direction];
         let begins = widened.is_empty();
         widened.resize(self.grid.len(), History::default());
@@ -78,7 +75,7 @@ impl ContactLine<'_> {
                 0 => 2.0 * self.iterate.own.along[port],
                 _ => self.iterate.displaced[port / 2],
             };
-            let growth = at(&self.iterate.growths[direction], &patch.powers(self.grid.x[i]));
+            let growth = at(&self.iterate.growths[direction], &self.given.powers[i]);
             let value = own - 2.0 * growth;
             if begins { *history = History::constant(value) } else { history.reach(&time, value) }
         }

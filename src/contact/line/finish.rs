@@ -16,11 +16,12 @@ pub fn finish(lines: &mut [ContactLine]) {
 fn finish_line(line: &mut ContactLine) {
     // The velocity of the rim in it is that before the histories move on.
     let [friction, work] = line.take_friction_power();
+    // The displacement by the contact forces alone, which lever arms need, is that before loads are taken.
+    line.traction.resultant = line.resultant();
     remember(line);
     load(line);
     let ContactLine { problem, traction, .. } = line;
     let power = traction.friction.dissipate(friction, work, problem.duration);
-    line.traction.resultant = line.resultant();
     if line.state.directions() > 1 {
         let [along, across] = line.mean_slips();
         line.traction.friction.slip_speed = libm::hypot(along, across);

@@ -8,6 +8,7 @@ use super::state::GridState;
 use super::strength::Strength;
 use super::vectors::copy;
 use crate::axes::PerAxis;
+use crate::contact::flexibility::ByPowers;
 use crate::contact::problem::LineProblem;
 use nalgebra::DVector;
 
@@ -32,6 +33,8 @@ pub struct KnownPart {
     /// Depths by which the surfaces of wheel and rail lie below circle and plane, at the candidates and one node beyond
     /// on each side \[m].
     pub depth: Vec<[f64; 2]>,
+    /// Powers of the places of the candidates \[1]; empty: the line is in no patch.
+    pub powers: Vec<ByPowers>,
     /// Strength of the steel.
     pub strength: Strength,
     /// Height of the round wheel over its lowest point at all nodes \[m], see [`rim::RimFrame::sagitta`].
@@ -60,6 +63,10 @@ impl KnownPart {
             let swollen = layers.swelling_at(0, i) + layers.swelling_at(1, i);
             problem.surfaces.round_gap(x, &problem.placement) - swollen
         }));
+        self.powers.clear();
+        if let Some(patch) = problem.patch {
+            self.powers.extend(grid.x.iter().map(|x| patch.powers(*x)));
+        }
         self.slip_offset.clear();
         self.slip_offset.extend(state.moved[0].iter().map(|h| h.offset(&problem.time)));
         self.strength.find(grid, &problem.limits, &state.forces, &state.lateral);

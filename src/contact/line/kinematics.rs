@@ -138,19 +138,16 @@ impl ContactLine<'_> {
     /// Takes the height that the flexibility of the line alone lacks in lever arms, see [`LineIterate::lift`].
     pub fn lift(&mut self) {
         let (grid, load, LineKernel { tangential, normal, .. }) = (self.grid, self.load_of_all(), self.kernel);
-        let lift = &mut self.iterate.lift;
-        lift.clear();
+        self.iterate.lift = [0.0; 2];
         if tangential == normal {
             return;
         }
         let carried: f64 = (0..grid.len()).map(|i| self.state.forces[grid.component(i) + 1]).sum();
         // The logarithms of the distances by normal forces displace the line along these already.
-        let [by_force, constant] = [
-            tangential.factor / normal.factor - 1.0,
+        self.iterate.lift = [
             tangential.factor * (tangential.reach - normal.reach) * carried + self.problem.bodies.lift * load,
+            tangential.factor / normal.factor - 1.0,
         ];
-        let along = &self.iterate.own.along;
-        lift.extend((0..grid.len()).map(|i| constant + by_force * along[grid.component(i) + 1]));
     }
 
     /// Lever arms about the hub centre of the tangential and the normal force at candidate `i` \[m].
@@ -161,7 +158,8 @@ impl ContactLine<'_> {
         let frame = RimFrame { rim_angle: self.surface_angle, ..self.frame };
         let (radius, grown) = (self.problem.radius(), self.problem.grown());
         let (u, port) = (&self.state.surface[0], self.grid.component(i));
-        let lift = self.iterate.lift.get(i).copied().unwrap_or(0.0);
+        let [constant, by_force] = self.iterate.lift;
+        let lift = constant + by_force * self.iterate.own.along[port + 1];
         let along = grown * (self.grid.x[i] + frame.tangential(u, port)) + radius * self.slopes().arm(i);
         [radius - grown * frame.normal(u, i) - grown * lift, along]
     }
