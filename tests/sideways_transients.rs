@@ -135,7 +135,8 @@ impl Count {
             common::figure("sideways.newton", &[mean, self.most as f64]);
         }
         if what.contains("nodes") {
-            common::round_off("sideways.random.nodes", &[self.least_power.min(0.0), self.beyond], 1e-10);
+            // A node keeps its state within 1e-9 of the mean force of the nodes.
+            common::round_off("sideways.random.nodes", &[self.least_power.min(0.0), self.beyond], 1e-9);
         } else {
             common::round_off("sideways.random", &[self.beyond], 1e-12);
         }
@@ -172,7 +173,7 @@ fn ten_thousand_random_steps_are_solved_within_the_cone_and_none_costs_five_time
     transients(1000, &HalfSpaces::sideways(1.0, 5), 0.0).check("held", 5.0);
 }
 
-/// Slips by shear are kept from turn to turn, so that a mean step takes few linear laws.
+/// Six to nine linear problems a step.
 #[test]
 fn random_steps_are_solved_on_nodes_with_velocities_held_and_free() {
     for (aspect, lines, nodes) in [(1.0, 5, 10), (0.5, 7, 10), (1.0, 7, 20), (2.0, 7, 20)] {

@@ -9,6 +9,7 @@ from itertools import count
 from math import isclose
 from numbers import Real
 from pathlib import Path
+from threading import Lock
 from typing import Any, Self
 from weakref import finalize
 from xml.etree import ElementTree
@@ -25,6 +26,7 @@ from .values import Refused, Unique, check_names, kind, plain, saved_state, shor
 
 ROUNDING = 1e-14  # relative difference of times that is rounding of one sum
 _numbers = count(1)
+_reading = Lock()  # lxml makes one schema at a time: what its library sets up with the first one is not locked
 
 
 def default_path() -> Path:
@@ -77,7 +79,8 @@ class Fmu(Unique):
         self._folder = _unpacked(fmu_file(path))
         try:
             self.directory = str(self._folder.path)
-            self.description = fmpy.read_model_description(self.directory)
+            with _reading:
+                self.description = fmpy.read_model_description(self.directory)
         except Exception as failure:  # whatever XML and fmpy say of what is no description
             self._folder.remove()
             raise _no_fmu(path, failure) from failure

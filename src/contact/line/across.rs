@@ -34,8 +34,9 @@ impl ContactLine<'_> {
     /// where it may have any direction; `None`: it has one.
     pub fn shear_without_slip(&self, i: usize) -> Option<[f64; 2]> {
         let [along, across] = &self.state.slip;
-        let (across, shear) = (across.get(i)?, self.shear(i));
-        Some([shear[0] - along[i] / self.iterate.own_slip, shear[1] - across / self.iterate.own_slip])
+        let (across, shear, own) = (across.get(i)?, self.shear(i), self.iterate.own_slip);
+        // A wheel that stands for ever has no slip.
+        Some(if own > 0.0 { [shear[0] - along[i] / own, shear[1] - across / own] } else { shear })
     }
 
     /// Spin velocity [rad/s].
