@@ -110,8 +110,9 @@ impl Count {
         let (mut scratch, spin) = (ContactScratch::default(), Spin { per_travel: spin, per_rotation: 0.0 });
         let laws = (time, Friction::constant(FRICTION));
         let found = spaces.solve_with(load, motion, spin, laws, start, &mut scratch);
-        self.newton += scratch.linear_laws;
-        self.most = self.most.max(scratch.linear_laws);
+        let solved = scratch.linear_laws + scratch.active_set.solved() as usize;
+        self.newton += solved;
+        self.most = self.most.max(solved);
         self.steps += 1;
         match found {
             Ok(found) => {

@@ -129,6 +129,6 @@ pub struct ContactScratch {
     pub active_set: ActiveSetScratch,
     /// Equations of all lines on series.
     pub series: DenseSystem,
-    /// Times that the law of friction was made linear for the last contact with lateral tractions.
+    /// Times that the law of friction was made linear for the last contact on points with lateral tractions.
     pub linear_laws: usize,
 }

@@ -29,6 +29,16 @@ _numbers = count(1)
 _reading = Lock()  # lxml makes one schema at a time: what its library sets up with the first one is not locked
 
 
+def _alone():
+    """In a process that was forked there is no other thread which could hold the lock."""
+    global _reading
+    _reading = Lock()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_alone)
+
+
 def default_path() -> Path:
     """The FMU named by the environment variable WHEELRAIL_FMU, else the one inside this package, else that of a checkout."""
     inside, built = Path(__file__).with_name("wheelrail.fmu"), Path("target/wheelrail.fmu")

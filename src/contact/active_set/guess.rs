@@ -9,38 +9,38 @@
 use super::axes::Axes;
 use super::linear::LinearSolver;
 use super::present::{self, Present};
-use super::pressing::{PressureSearch, Thoroughness};
-use super::states::Rules;
+use super::states::{Rules, guess_state};
+use super::unknowns::Unknowns;
+use crate::contact::error::ContactError;
 use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::exchange;
+use crate::contact::line::state::NodeStatus;
 
-/// Extent of the search: yielding stays as it is.
-const GUESSED: Thoroughness = Thoroughness { most: 6, together: 6, yields: false };
+/// Iterations at most.
+const MOST: usize = 6;
 
 /// Memory of the guess.
 #[derive(Default)]
-pub struct Guess {
+pub(super) struct Guess {
     starts: Vec<Present>,
+    unknowns: Unknowns,
+    /// Tangential forces at the candidates of every line [N/m].
+    shear: Vec<Vec<f64>>,
+    /// States before an update.
+    before: Vec<NodeStatus>,
 }
 
 impl Guess {
     /// Sets closed nodes, gaps, normal forces and height of the hub to those that belong to the shear forces and
     /// velocities at hand, where the surfaces are uneven, then the displacements to these forces: lever arms of the step
     /// before would leave a moment that takes an iteration more.
-    pub fn find(
-        &mut self,
-        lines: &mut [ContactLine],
-        axes: &Axes,
-        rules: &Rules,
-        pressing: &mut PressureSearch,
-        solver: &mut LinearSolver,
-    ) {
+    pub fn find(&mut self, lines: &mut [ContactLine], axes: &Axes, rules: &Rules, solver: &mut LinearSolver) {
         let skipped = |line: &ContactLine| line.given.rail_slope.is_empty() || line.problem.time.is_stationary();
         if lines.iter().all(skipped) {
             return;
         }
         present::take(lines, &mut self.starts);
-        if !matches!(pressing.press(lines, axes, rules, GUESSED, solver), Ok(true)) {
+        if !matches!(self.press(lines, axes, rules, solver), Ok(true)) {
             present::give_back(&self.starts, lines);
             return;
         }
@@ -49,6 +49,67 @@ impl Guess {
         for line in lines {
             line.follow_forces(axes.sought_accelerations(line.traction.rigid));
         }
+    }
+
+    /// Sets closed nodes, gaps, normal forces and height of the hub to those that belong to the shear forces and velocities at
+    /// hand; true if states settled.
+    fn press(
+        &mut self,
+        lines: &mut [ContactLine],
+        axes: &Axes,
+        rules: &Rules,
+        solver: &mut LinearSolver,
+    ) -> Result<bool, ContactError> {
+        lines.iter_mut().for_each(ContactLine::update_rim);
+        self.shear.resize_with(lines.len(), Vec::new);
+        for (line, shear) in lines.iter().zip(&mut self.shear) {
+            shear.clear();
+            shear.extend((0..line.grid.len()).map(|i| line.tangential(i)));
+        }
+        let settled = self.settle(lines, axes, rules, solver);
+        // Open nodes have kept their shear so far, so that they press on the same surfaces when they close.
+        for line in lines {
+            for i in (0..line.grid.len()).filter(|&i| !line.state.status[i].is_active()) {
+                line.state.forces[line.grid.component(i)] = 0.0;
+                line.state.lateral.get_mut(i).into_iter().for_each(|lateral| *lateral = 0.0);
+            }
+        }
+        settled
+    }
+
+    /// Iterates until closed nodes and pressures under the shear forces at hand settle; true if they do.
+    fn settle(
+        &mut self,
+        lines: &mut [ContactLine],
+        axes: &Axes,
+        rules: &Rules,
+        solver: &mut LinearSolver,
+    ) -> Result<bool, ContactError> {
+        for _ in 0..MOST {
+            self.unknowns.list_pressures(lines, axes);
+            solver.solve(lines, (axes, &self.unknowns), Some(&self.shear))?;
+            exchange::forces(lines);
+            for line in &mut *lines {
+                line.follow_forces(axes.sought_accelerations(line.traction.rigid));
+                line.take_gaps();
+            }
+            if !self.close(lines, rules) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Opens closed nodes that pull and closes open ones that overlap; returns whether there were any.
+    fn close(&mut self, lines: &mut [ContactLine], rules: &Rules) -> bool {
+        let mut changed = false;
+        for line in lines {
+            self.before.clone_from(&line.state.status);
+            for i in 0..line.grid.len() {
+                changed |= guess_state(line, i, rules, &self.before);
+            }
+        }
+        changed
     }
 }
 

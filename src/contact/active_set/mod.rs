@@ -1,9 +1,11 @@
 //! Contact on a grid of paired surface nodes: exact Coulomb friction by an active set.
 //!
 //! The driver of a [line](crate::contact::line): [`search`] iterates, [`states`] has the rules by which nodes open,
-//! close, stick and slip, [`slides`] the directions in which they do where shear has a lateral part, [`unknowns`] the unknowns of given states, [`linear`] finds them around the [`own_forces`] of every
-//! line, [`axes`] has the balances of the rigid motions, [`coefficients`] the friction that follows its law, [`pressing`] the
-//! normal problem by itself, [`guess`] where it starts, and [`drawn`] the way where it ends nowhere; [`present`] keeps iterates. [`solver`] is the contact solver that uses it. Theory: `docs/theory/contact.md`.
+//! close, stick and slip, [`slides`] the directions of friction where shear has a lateral part, [`unknowns`] the unknowns of
+//! given states, [`linear`] finds them around the [`own_forces`] of every line, [`axes`] has the balances of the rigid
+//! motions, [`coefficients`] the friction that follows its law, [`guess`] the closed nodes where the search starts, and
+//! [`drawn`] the way where it ends nowhere; [`present`] keeps iterates. [`solver`] is the contact solver that uses it. Theory:
+//! `docs/theory/contact.md`.
 
 mod axes;
 mod coefficients;
@@ -12,7 +14,6 @@ mod guess;
 mod linear;
 mod own_forces;
 mod present;
-mod pressing;
 mod search;
 mod slides;
 mod solver;

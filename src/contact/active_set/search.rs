@@ -12,7 +12,6 @@ use super::coefficients::{FollowedLaws, Obedience, Progress};
 use super::guess::Guess;
 use super::linear::LinearSolver;
 use super::present::{self, Present};
-use super::pressing::PressureSearch;
 use super::slides;
 use super::states::{self, Rules};
 use super::unknowns::Unknowns;
@@ -77,21 +76,20 @@ pub(super) struct SearchMemory {
     before: Vec<NodeStatus>,
     /// States, forces and motions with which the search has begun.
     begun: Vec<Present>,
-    pub pressing: PressureSearch,
     guess: Guess,
-    pub solver: LinearSolver,
+    solver: LinearSolver,
     solved: u64,
 }
 
 /// The search in one contact problem.
 pub(super) struct ActiveSet<'a> {
-    pub problem: &'a ContactProblem<'a>,
-    pub grid: &'a ContactGrid,
+    problem: &'a ContactProblem<'a>,
+    grid: &'a ContactGrid,
     pub lines: Vec<ContactLine<'a>>,
     /// Stiffness by which every line compares gaps with forces [N/m per m].
-    pub penalties: Vec<f64>,
-    pub axes: Axes<'a>,
-    pub memory: &'a mut SearchMemory,
+    penalties: Vec<f64>,
+    axes: Axes<'a>,
+    memory: &'a mut SearchMemory,
 }
 
 impl<'a> ActiveSet<'a> {
@@ -170,7 +168,7 @@ impl<'a> ActiveSet<'a> {
 
     /// Takes the states with which the search begins. Upwind differences begin with those of the step before all the same: from
     /// others they would end elsewhere within their tolerance, and forces would jump where a layout is tried more or less.
-    pub fn begin_states(&mut self) {
+    fn begin_states(&mut self) {
         match self.problem.begin {
             Begin::Before(factor) => {
                 self.lines.iter_mut().for_each(|line| states::stretch(line, factor / line.resized));
@@ -196,9 +194,9 @@ impl<'a> ActiveSet<'a> {
 
     /// Guesses the closed nodes from which the search starts.
     fn guess_closed(&mut self) {
-        let SearchMemory { guess, pressing, solver, .. } = &mut *self.memory;
+        let SearchMemory { guess, solver, .. } = &mut *self.memory;
         let rules = Rules::new(&self.lines[0], self.penalties[0], self.problem.nominal_load, 1.0, false);
-        guess.find(&mut self.lines, &self.axes, &rules, pressing, solver);
+        guess.find(&mut self.lines, &self.axes, &rules, solver);
     }
 
     /// Finds the states of all nodes at the friction coefficients of their slips; returns the iterations until states were
@@ -270,7 +268,7 @@ impl<'a> ActiveSet<'a> {
     }
 
     /// Takes the forces of retarded layers in the present iterate; returns the change of their sum [N/m].
-    pub fn update_retarded(&mut self) -> f64 {
+    fn update_retarded(&mut self) -> f64 {
         self.lines.iter_mut().map(|line| line.problem.share * line.update_retarded()).sum()
     }
 
@@ -300,7 +298,7 @@ impl<'a> ActiveSet<'a> {
     }
 
     /// True if the material moves by so little in the step that it does not matter where it comes from.
-    pub fn stands(&self) -> bool {
+    fn stands(&self) -> bool {
         let moves = |line: &ContactLine| (line.traction.rigid.travel + line.rim_velocity()).abs();
         let cell = |line: &ContactLine| STANDS * line.problem.time.a0 * line.grid.spacing;
         self.lines.iter().all(|line| moves(line) < cell(line))
@@ -308,7 +306,7 @@ impl<'a> ActiveSet<'a> {
 
     /// True if the edges of the patches are settled. The weights of the present solution are kept if so: with weights
     /// that change from one coefficient to the next the slip would be no function of the coefficient.
-    pub fn edges_settled(&mut self) -> bool {
+    fn edges_settled(&mut self) -> bool {
         let tolerance = self.problem.edge_tolerance;
         let change = self.lines.iter_mut().map(|line| line.update_upwind(tolerance)).fold(0.0, f64::max);
         let settled = change <= tolerance.min(SAME_WEIGHT);

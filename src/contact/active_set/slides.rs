@@ -5,7 +5,7 @@
 //! the shear across n what turns it: the slip across n is `−(|z| − μp) b/μp` times that. At a solution this is `|s|/μp`, whatever
 //! b. Derivation: `docs/theory/sideways.md`.
 
-use super::states::nearest_closed;
+use super::states::{nearest_closed, size};
 use crate::contact::line::contact_line::{ContactLine, Slide};
 use crate::contact::line::state::NodeStatus;
 
@@ -62,7 +62,7 @@ struct Polar {
 
 impl Polar {
     fn of(pair: [f64; 2]) -> Self {
-        let size = libm::hypot(pair[0], pair[1]);
+        let size = size(pair);
         Self { size, direction: (size > 0.0).then(|| pair.map(|part| part / size)) }
     }
 }

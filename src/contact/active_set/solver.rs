@@ -70,10 +70,7 @@ impl ActiveSetSolver {
             state.reach_across(self.grid.len());
             history.friction.reach(2 * self.grid.len());
         }
-        let solved = scratch.active_set.solved();
-        let ended = ActiveSet::new(&self.grid, (problem, follow), starts, &mut scratch.active_set).run();
-        scratch.linear_laws = (scratch.active_set.solved() - solved) as usize;
-        ended
+        ActiveSet::new(&self.grid, (problem, follow), starts, &mut scratch.active_set).run()
     }
 }
 

@@ -99,7 +99,7 @@ fn new_state(
 }
 
 /// True if the steel at a node yields: it bears more than its limit.
-pub(super) fn yields(line: &ContactLine, i: usize, tolerance: f64) -> bool {
+fn yields(line: &ContactLine, i: usize, tolerance: f64) -> bool {
     let Some(excess) = line.given.strength.excess(i, line.normal(i)) else { return false };
     if excess.abs() <= tolerance { line.state.yielded[i] } else { excess > 0.0 }
 }
@@ -143,7 +143,7 @@ pub(super) fn nearest_closed(before: &[NodeStatus], i: usize) -> Option<usize> {
 }
 
 /// Length of a shear along and across [N/m].
-fn size(shear: [f64; 2]) -> f64 {
+pub(super) fn size(shear: [f64; 2]) -> f64 {
     if shear[1] == 0.0 { shear[0].abs() } else { libm::hypot(shear[0], shear[1]) }
 }
 
