@@ -1,6 +1,7 @@
 //! Traction read off a solution on the grid. It varies smoothly while the contact edges move between nodes.
 
 use super::grid::ContactGrid;
+use super::slip_zone::SlipZone;
 use super::state::{GridState, NodeStatus, for_each_patch};
 use super::streamline::edge_offset;
 use super::strength::Strength;
@@ -20,11 +21,12 @@ const MARGIN: f64 = 1e-3;
 
 /// Fills patches, profiles and peaks in `traction` from forces and friction coefficient, for the `power` of
 /// friction [W/m] and the largest pressure `limit` that the steel bears anywhere \[Pa], and the slip velocities of the
-/// candidates with centred differences, along and across [m/s].
+/// candidates with centred differences, along and across [m/s]. `strength` tells the friction that candidates bear;
+/// `to_right`: the material arrives from `+x`.
 pub fn read_off(
     grid: &ContactGrid,
-    [power, limit]: [f64; 2],
-    state: &GridState,
+    ([power, limit], strength): ([f64; 2], &Strength),
+    (state, to_right): (&GridState, bool),
     [centred_slip, centred_across]: [&[f64]; 2],
     traction: &mut Traction,
 ) {
@@ -37,16 +39,18 @@ pub fn read_off(
     traction.edges.clear();
     traction.conducting.clear();
     traction.patches.clear();
-    let (mut length, mut stuck) = (0.0, 0.0);
+    let (mut length, mut stuck, mut zone) = (0.0, 0.0, None);
+    let friction = traction.friction.coefficient;
+    let unused = |i: usize| grid.share(i) * (strength.friction(i, friction) * normal(i) - shear(i)).max(0.0);
     for_each_patch(&state.status, |run| {
         let apart = edges_apart(grid, normal, &run);
         traction.edges.push(edges(grid, normal, &run, apart));
         traction.conducting.push(apart);
-        traction.patches.push(stretch(grid, apart, &run));
-        length += run.clone().map(|i| grid.width(i)).sum::<f64>();
-        let margin =
-            |i: usize| (grid.share(i) * (traction.friction.coefficient * normal(i) - shear(i))).max(0.0).powi(2);
-        stuck += stick_length(grid, &state.status, margin, run);
+        let patch = stretch(grid, apart, &run);
+        traction.patches.push(patch);
+        length += 2.0 * patch.half_length();
+        zone = SlipZone::of(grid, &state.status, (run.clone(), patch), unused, to_right);
+        stuck += zone.map_or_else(|| stick_length(grid, &state.status, run), |zone| zone.stuck());
     });
     traction.stick_fraction = if length > 0.0 { (stuck / length).clamp(0.0, 1.0) } else { 0.0 };
 
@@ -67,7 +71,11 @@ pub fn read_off(
         }
         NodeStatus::Stick | NodeStatus::Open => 0.0,
     };
-    over_patches(grid, status, patches, density, &mut traction.friction.dissipation);
+    let dissipation = &mut traction.friction.dissipation;
+    let zone = zone.filter(|_| patches.len() == 1);
+    if !zone.is_some_and(|zone| zone.power(dissipation)) {
+        over_patches(grid, status, patches, density, dissipation);
+    }
     traction.friction.dissipation.scale_to(power, &traction.pressure);
 }
 
@@ -211,27 +219,7 @@ fn parabola_peak(samples: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
     (c[2] < 0.0 && at >= ends[0] && at <= ends[1]).then(|| c[0] + 0.5 * c[1] * at).filter(|p| *p > 0.0)
 }
 
-/// Length of the stick zone of one run [m]; its boundary between stick and slip is found below grid scale from
-/// the quadratic through `margin`, `(μp − |t|)²`, at the three outermost stuck nodes.
-fn stick_length(grid: &ContactGrid, status: &[NodeStatus], margin: impl Fn(usize) -> f64, run: Range<usize>) -> f64 {
-    let mut stuck = run.clone().filter(|&i| status[i].is_stuck());
-    let Some(low) = stuck.next() else { return 0.0 };
-    let high = stuck.next_back().unwrap_or(low);
-    let beyond = |edge: usize, inward: isize| {
-        let at_end = if inward < 0 { edge + 1 >= run.end } else { edge <= run.start };
-        if at_end || high - low < 2 {
-            return 0.5;
-        }
-        let at = |k: isize| margin((edge as isize + k * inward) as usize);
-        let (f0, f1, f2) = (at(0), at(1), at(2));
-        // f(s) = f0 + b s + c s² with s in cells towards the inside; its root lies at s in [−1, 0].
-        let (b, c) = (2.0 * f1 - 1.5 * f0 - 0.5 * f2, 0.5 * (f0 + f2) - f1);
-        let discriminant = b * b - 4.0 * c * f0;
-        if b <= 0.0 || discriminant < 0.0 {
-            return 0.5;
-        }
-        (2.0 * f0 / (b + discriminant.sqrt())).clamp(0.0, 1.0)
-    };
-    let beside = |edge: usize, to_right: bool| grid.cells_beside(edge, to_right)[0];
-    grid.x[high] - grid.x[low] + beyond(low, 1) * beside(low, false) + beyond(high, -1) * beside(high, true)
+/// Length of the stick zone of one run \[m], to half a cell beyond its outermost nodes.
+fn stick_length(grid: &ContactGrid, status: &[NodeStatus], run: Range<usize>) -> f64 {
+    run.filter(|&i| status[i].is_stuck()).map(|i| grid.width(i)).sum()
 }
