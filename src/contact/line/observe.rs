@@ -33,7 +33,7 @@ pub fn read_off(
     let forces = &state.forces;
     let tangential = |i: usize| forces[grid.component(i)];
     let lateral = |i: usize| state.lateral.get(i).copied().unwrap_or(0.0);
-    let shear = |i: usize| if lateral(i) == 0.0 { tangential(i).abs() } else { libm::hypot(tangential(i), lateral(i)) };
+    let shear = |i: usize| [tangential(i), lateral(i)];
     let normal = |i: usize| forces[grid.component(i) + 1];
     traction.pressure_max = pressure_peak(grid, &state.yielded, normal, limit);
     traction.edges.clear();
@@ -41,7 +41,9 @@ pub fn read_off(
     traction.patches.clear();
     let (mut length, mut stuck, mut zone) = (0.0, 0.0, None);
     let friction = traction.friction.coefficient;
-    let unused = |i: usize| grid.share(i) * (strength.friction(i, friction) * normal(i) - shear(i)).max(0.0);
+    let unused = |i: usize| {
+        grid.share(i) * (strength.friction(i, friction) * normal(i) - libm::hypot(tangential(i), lateral(i))).max(0.0)
+    };
     for_each_patch(&state.status, |run| {
         let apart = edges_apart(grid, normal, &run);
         traction.edges.push(edges(grid, normal, &run, apart));
@@ -49,8 +51,8 @@ pub fn read_off(
         let patch = stretch(grid, apart, &run);
         traction.patches.push(patch);
         length += 2.0 * patch.half_length();
-        zone = SlipZone::of(grid, &state.status, (run.clone(), patch), unused, to_right);
-        stuck += zone.map_or_else(|| stick_length(grid, &state.status, run), |zone| zone.stuck());
+        zone = SlipZone::of(grid, &state.status, (run.clone(), patch), (unused, shear), to_right);
+        stuck += zone.as_ref().map_or_else(|| stick_length(grid, &state.status, run), SlipZone::stuck);
     });
     traction.stick_fraction = if length > 0.0 { (stuck / length).clamp(0.0, 1.0) } else { 0.0 };
 
@@ -73,7 +75,8 @@ pub fn read_off(
     };
     let dissipation = &mut traction.friction.dissipation;
     let zone = zone.filter(|_| patches.len() == 1);
-    if !zone.is_some_and(|zone| zone.power(dissipation)) {
+    let of_nodes = (state.directions() > 1).then_some(density);
+    if !zone.is_some_and(|zone| zone.power(grid, of_nodes, dissipation)) {
         over_patches(grid, status, patches, density, dissipation);
     }
     traction.friction.dissipation.scale_to(power, &traction.pressure);
