@@ -1,7 +1,7 @@
 //! Traction read off a solution on the grid. It varies smoothly while the contact edges move between nodes.
 
 use super::grid::ContactGrid;
-use super::slip_zone::SlipZone;
+use super::slip_zone::{Friction, SlipZone};
 use super::state::{GridState, NodeStatus, for_each_patch};
 use super::streamline::edge_offset;
 use super::strength::Strength;
@@ -33,17 +33,14 @@ pub fn read_off(
     let forces = &state.forces;
     let tangential = |i: usize| forces[grid.component(i)];
     let lateral = |i: usize| state.lateral.get(i).copied().unwrap_or(0.0);
-    let shear = |i: usize| [tangential(i), lateral(i)];
     let normal = |i: usize| forces[grid.component(i) + 1];
     traction.pressure_max = pressure_peak(grid, &state.yielded, normal, limit);
     traction.edges.clear();
     traction.conducting.clear();
     traction.patches.clear();
     let (mut length, mut stuck, mut zone) = (0.0, 0.0, None);
-    let friction = traction.friction.coefficient;
-    let unused = |i: usize| {
-        grid.share(i) * (strength.friction(i, friction) * normal(i) - libm::hypot(tangential(i), lateral(i))).max(0.0)
-    };
+    let coefficient = traction.friction.coefficient;
+    let friction = Friction { grid, state, strength, coefficient, to_right };
     for_each_patch(&state.status, |run| {
         let apart = edges_apart(grid, normal, &run);
         traction.edges.push(edges(grid, normal, &run, apart));
@@ -51,8 +48,8 @@ pub fn read_off(
         let patch = stretch(grid, apart, &run);
         traction.patches.push(patch);
         length += 2.0 * patch.half_length();
-        zone = SlipZone::of(grid, &state.status, (run.clone(), patch), (unused, shear), to_right);
-        stuck += zone.as_ref().map_or_else(|| stick_length(grid, &state.status, run), SlipZone::stuck);
+        zone = SlipZone::of(&friction, &run, patch);
+        stuck += friction.stick_length(run, patch);
     });
     traction.stick_fraction = if length > 0.0 { (stuck / length).clamp(0.0, 1.0) } else { 0.0 };
 
@@ -220,9 +217,4 @@ fn parabola_peak(samples: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
     let c = normal.lu().solve(&rhs)?;
     let at = -0.5 * c[1] / c[2];
     (c[2] < 0.0 && at >= ends[0] && at <= ends[1]).then(|| c[0] + 0.5 * c[1] * at).filter(|p| *p > 0.0)
-}
-
-/// Length of the stick zone of one run \[m], to half a cell beyond its outermost nodes.
-fn stick_length(grid: &ContactGrid, status: &[NodeStatus], run: Range<usize>) -> f64 {
-    run.filter(|&i| status[i].is_stuck()).map(|i| grid.width(i)).sum()
 }
