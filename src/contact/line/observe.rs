@@ -1,7 +1,7 @@
 //! Traction read off a solution on the grid. It varies smoothly while the contact edges move between nodes.
 
 use super::grid::ContactGrid;
-use super::slip_zone::{Friction, SlipZone};
+use super::slip_zone::{NodalFriction, SlipZone};
 use super::state::{GridState, NodeStatus, for_each_patch};
 use super::streamline::edge_offset;
 use super::strength::Strength;
@@ -21,11 +21,11 @@ const MARGIN: f64 = 1e-3;
 
 /// Fills patches, profiles and peaks in `traction` from forces and friction coefficient, for the `power` of
 /// friction [W/m] and the largest pressure `limit` that the steel bears anywhere \[Pa], and the slip velocities of the
-/// candidates with centred differences, along and across [m/s]. `strength` tells the friction that candidates bear;
-/// `to_right`: the material arrives from `+x`.
+/// candidates with centred differences, along and across [m/s]. `coefficient`: the friction that a candidate can bear over its
+/// normal force \[1]; `to_right`: the material arrives from `+x`.
 pub fn read_off(
     grid: &ContactGrid,
-    ([power, limit], strength): ([f64; 2], &Strength),
+    ([power, limit], coefficient): ([f64; 2], &dyn Fn(usize) -> f64),
     (state, to_right): (&GridState, bool),
     [centred_slip, centred_across]: [&[f64]; 2],
     traction: &mut Traction,
@@ -39,8 +39,7 @@ pub fn read_off(
     traction.conducting.clear();
     traction.patches.clear();
     let (mut length, mut stuck, mut zone) = (0.0, 0.0, None);
-    let coefficient = traction.friction.coefficient;
-    let friction = Friction { grid, state, strength, coefficient, to_right };
+    let friction = NodalFriction { grid, state, coefficient, to_right };
     for_each_patch(&state.status, |run| {
         let apart = edges_apart(grid, normal, &run);
         traction.edges.push(edges(grid, normal, &run, apart));
@@ -61,22 +60,27 @@ pub fn read_off(
         over_patches(grid, status, patches, |i| lateral(i) / grid.width(i), &mut traction.lateral_shear);
         over_patches(grid, status, patches, |i| centred_across[i], &mut traction.lateral_slip);
     }
-    // The upwind slip knows where friction acts, the centred one how much it dissipates. What is left of the slip at
-    // stuck nodes is round-off: it would place the heat of a contact that sticks everywhere at random.
-    let density = |i: usize| match status[i] {
+    heat(&friction, zone.filter(|_| patches.len() == 1), patches, &mut traction.friction.dissipation);
+    traction.friction.dissipation.scale_to(power, &traction.pressure);
+}
+
+/// Writes the profile of friction's power, but for a factor: that of the slip `zone` of a single patch, or from node to node.
+/// The upwind slip knows where friction acts, the centred one how much it dissipates. What is left of the slip at stuck
+/// nodes is round-off: it would place the heat of a contact that sticks everywhere at random.
+fn heat(friction: &NodalFriction, zone: Option<SlipZone>, patches: &[Interval], dissipation: &mut Piecewise) {
+    let NodalFriction { grid, state, .. } = *friction;
+    let density = |i: usize| match state.status[i] {
         NodeStatus::SlipForward | NodeStatus::SlipBackward => {
-            let across = state.slip[1].get(i).map_or(0.0, |slip| lateral(i) * slip);
-            (-(tangential(i) * state.slip[0][i] + across) / grid.width(i)).max(0.0)
+            let [along, across] = friction.force(i);
+            let across = state.slip[1].get(i).map_or(0.0, |slip| across * slip);
+            (-(along * state.slip[0][i] + across) / grid.width(i)).max(0.0)
         }
         NodeStatus::Stick | NodeStatus::Open => 0.0,
     };
-    let dissipation = &mut traction.friction.dissipation;
-    let zone = zone.filter(|_| patches.len() == 1);
     let of_nodes = (state.directions() > 1).then_some(density);
     if !zone.is_some_and(|zone| zone.power(grid, of_nodes, dissipation)) {
-        over_patches(grid, status, patches, density, dissipation);
+        over_patches(grid, &state.status, patches, density, dissipation);
     }
-    traction.friction.dissipation.scale_to(power, &traction.pressure);
 }
 
 /// Fills the yielding part of `traction` from the depths `overlap` by which candidates have given way [m].

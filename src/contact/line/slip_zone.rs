@@ -7,7 +7,6 @@
 use super::grid::ContactGrid;
 use super::state::{GridState, NodeStatus};
 use super::streamline::edge_offset;
-use super::strength::Strength;
 use crate::piecewise::{Interval, Piecewise, interpolate};
 use std::ops::Range;
 
@@ -19,12 +18,11 @@ const BESIDE: usize = 2;
 const PLACES: usize = 13;
 
 /// Friction of the closed nodes of a line, and what they could still bear.
-pub struct Friction<'a> {
+pub struct NodalFriction<'a> {
     pub grid: &'a ContactGrid,
     pub state: &'a GridState,
-    pub strength: &'a Strength,
-    /// Friction coefficient of the line \[1].
-    pub coefficient: f64,
+    /// Friction that a candidate can bear over its normal force \[1].
+    pub coefficient: &'a dyn Fn(usize) -> f64,
     /// True if the material arrives from `+x`.
     pub to_right: bool,
 }
@@ -40,19 +38,19 @@ pub struct SlipZone {
     edges: [f64; 2],
 }
 
-impl Friction<'_> {
+impl NodalFriction<'_> {
     fn status(&self, i: usize) -> NodeStatus {
         self.state.status[i]
     }
 
     /// Force of friction at candidate `i`, along and across [N/m].
-    fn force(&self, i: usize) -> [f64; 2] {
+    pub fn force(&self, i: usize) -> [f64; 2] {
         [self.state.forces[self.grid.component(i)], self.state.lateral.get(i).copied().unwrap_or(0.0)]
     }
 
     /// Largest force of friction at candidate `i` [N/m].
     fn most(&self, i: usize) -> f64 {
-        self.strength.friction(i, self.coefficient) * self.state.forces[self.grid.component(i) + 1]
+        (self.coefficient)(i) * self.state.forces[self.grid.component(i) + 1]
     }
 
     /// Force of friction that candidate `i` could bear in addition [N/m].
@@ -112,7 +110,7 @@ impl Friction<'_> {
 impl SlipZone {
     /// The slip zone of a `run` of closed nodes that make a `patch`. `None` where slip is elsewhere, turns round, or hardly
     /// leaves a node that sticks.
-    pub fn of(friction: &Friction, run: &Range<usize>, patch: Interval) -> Option<Self> {
+    pub fn of(friction: &NodalFriction, run: &Range<usize>, patch: Interval) -> Option<Self> {
         let node = |k: usize| if friction.to_right { run.start + k } else { run.end - 1 - k };
         let edges = if friction.to_right { [patch.high, patch.low] } else { [patch.low, patch.high] };
         let sticks = |k: usize| friction.status(node(k)).is_stuck();
