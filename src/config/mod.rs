@@ -17,7 +17,7 @@ pub mod units;
 pub mod value;
 
 pub use choices::{
-    ConductanceLaw, ContactMethod, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear,
+    ConductanceLaw, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear,
 };
 pub use dependent::ConfigError;
 pub use nominal::NominalPatch;

@@ -192,7 +192,7 @@ impl PatchLayout {
 
     /// On nodes that end at the distance `end` \[m] from the middle: contact may be that long, whatever the layout. Lines
     /// reach so far that none is pushed by its own tangential forces.
-    pub fn on_nodes(self, end: f64) -> Self {
+    pub fn reaching(self, end: f64) -> Self {
         Self { least_reach: Some(REACH * end), ..self }
     }
 

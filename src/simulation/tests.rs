@@ -1,7 +1,7 @@
 //! Work of a step that its results do not show.
 
 use super::*;
-use crate::config::{ContactMethod, ContactShape, presets};
+use crate::config::{ContactShape, presets};
 use crate::rolling::outputs::{complete, observe_over};
 use std::path::Path;
 
@@ -10,14 +10,14 @@ fn solved(shape: ContactShape, profile: &str, moment: f64) -> u64 {
     let store = BasisStore::within(&Path::new(env!("CARGO_MANIFEST_DIR")).join("target"));
     let mut config = Config::default();
     (config.thermal.enabled, config.tuning.tolerance) = (false, 0.0);
-    (config.solver.contact, config.mesh.elements_per_half_width) = (ContactMethod::Grid, 20);
+    config.mesh.elements_per_half_width = 20;
     (config.contact.shape, config.rail.profile) = (shape, profile.to_owned());
     let model = Model::prepare(config, &store, &mut |_, _| {}).unwrap();
     let mut inputs = Inputs::rolling(model.config());
     let mut simulation = Simulation::new(model, &inputs).unwrap();
     inputs.drive.moment = moment;
     let counted =
-        |simulation: &Simulation| simulation.model.shelf.lend(|tools| tools.workspace.contact.active_set.solved());
+        |simulation: &Simulation| simulation.model.shelf.lend(|tools| tools.workspace.contact.solved());
     let mut before = 0;
     for step in 0..220 {
         // The first steps follow the change of the moment.
@@ -64,7 +64,7 @@ fn work(preset: &str, height: f64, (course, milliseconds): (Course, usize)) -> V
     let advanced = |k: usize| {
         course(&mut inputs, 1e-3 * k as f64);
         simulation.advance(&inputs, 1e-3).unwrap_or_else(|error| panic!("{preset}, {k} ms: {error}"));
-        let solved = simulation.model.shelf.lend(|tools| tools.workspace.contact.active_set.solved());
+        let solved = simulation.model.shelf.lend(|tools| tools.workspace.contact.solved());
         (solved, simulation.outputs().internal_steps)
     };
     let counts: Vec<_> = (1..=milliseconds).map(advanced).collect();
