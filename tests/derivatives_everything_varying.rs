@@ -4,7 +4,7 @@
 mod common;
 
 use common::{model, shipped};
-use wheelrail::config::{Config, ContactMethod};
+use wheelrail::config::Config;
 use wheelrail::simulation::{Drive, Inputs, Outputs, Read, Simulation};
 
 /// Inputs with the sizes over which outputs bend, for a load of 100 kN.
@@ -127,12 +127,6 @@ fn undivided(name: &str) -> Config {
     config
 }
 
-/// A configuration with contact on fixed nodes.
-fn on_nodes(mut config: Config) -> Config {
-    config.solver.contact = ContactMethod::Grid;
-    config
-}
-
 /// The rail warms by 10 K within the run, where the swelling of hot layers begins to be smoothed. Measured: 4e-7; where the
 /// swelling jumped, .6.
 #[test]
@@ -144,10 +138,10 @@ fn derivatives_in_divided_steps_are_those_of_the_repeated_step_while_the_rail_wa
     }
 }
 
-/// The temperature at which friction acts has no kink where points of the pressure pass nodes of the temperatures. Measured:
+/// The temperature at which friction acts has no kink where nodes of the contact pass those of the temperatures. Measured:
 /// 2e-8; where it had some, 1e-4.
 #[test]
-fn derivatives_of_the_temperature_of_friction_are_those_of_the_repeated_step_on_moving_points() {
+fn derivatives_of_the_temperature_of_friction_are_those_of_the_repeated_step() {
     assert_eq!(agree(undivided("railway_ellipse"))[1], 0);
 }
 
@@ -155,7 +149,7 @@ fn derivatives_of_the_temperature_of_friction_are_those_of_the_repeated_step_on_
 /// they had one, 7e-3. In divided steps some of 2415 derivatives are those of one side, since layouts begin with the load to come, and
 /// nodes go with it: 1e-4. On S1002 four pairs are those of one side, to 1.4e-4.
 #[test]
-fn derivatives_on_fixed_nodes_are_those_of_the_repeated_step_where_a_node_is_about_to_close() {
+fn derivatives_are_those_of_the_repeated_step_where_a_node_is_about_to_close() {
     let cases = [
         (undivided("railway_ellipse"), BOUND, 2),
         // The step of the derivatives by friction lies across a kink once: slopes of its sides differ by 4e-3 of the scale.
@@ -163,7 +157,7 @@ fn derivatives_on_fixed_nodes_are_those_of_the_repeated_step_where_a_node_is_abo
         (shipped("railway_ellipse"), 2e-4, 20),
     ];
     for (config, bound, most) in cases {
-        let [pairs, kinks] = agree_to(bound, on_nodes(config));
+        let [pairs, kinks] = agree_to(bound, config);
         assert!(pairs > 2000 && kinks <= most);
     }
 }

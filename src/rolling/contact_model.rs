@@ -13,8 +13,8 @@ use crate::axes::{Axis, PerAxis};
 use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
-    ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction, LineLayout,
-    LineProblem, RetardedSurface, SteelLimits, SurfaceResponse, Traction,
+    ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction,
+    LineLayout, LineProblem, RetardedSurface, SteelLimits, SurfaceResponse, Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
@@ -50,12 +50,7 @@ impl ContactModel {
     ///
     /// # Errors
     /// Rows of a patch without meaning.
-    pub fn new(
-        config: &Config,
-        surfaces: Surfaces,
-        solver: ActiveSetSolver,
-        reach: f64,
-    ) -> Result<Self, RowsError> {
+    pub fn new(config: &Config, surfaces: Surfaces, solver: ActiveSetSolver, reach: f64) -> Result<Self, RowsError> {
         Ok(Self {
             patch: PatchLines::new(config, surfaces.is_smooth(), reach)?,
             surfaces,
@@ -169,7 +164,9 @@ impl ContactModel {
     ) -> Result<(), ContactError> {
         let lines = start.iter().zip(step.friction).zip(&*found).enumerate();
         let problem = ContactProblem {
-            lines: lines.map(|(k, ((line, friction), own))| self.line(step, line, *friction, (k, &own.layout))).collect(),
+            lines: lines
+                .map(|(k, ((line, friction), own))| self.line(step, line, *friction, (k, &own.layout)))
+                .collect(),
             rigid: step.rigid,
             spin: step.spin,
             nominal_load: self.nominal_line_load(),

@@ -16,8 +16,7 @@ fn solved(shape: ContactShape, profile: &str, moment: f64) -> u64 {
     let mut inputs = Inputs::rolling(model.config());
     let mut simulation = Simulation::new(model, &inputs).unwrap();
     inputs.drive.moment = moment;
-    let counted =
-        |simulation: &Simulation| simulation.model.shelf.lend(|tools| tools.workspace.contact.solved());
+    let counted = |simulation: &Simulation| simulation.model.shelf.lend(|tools| tools.workspace.contact.solved());
     let mut before = 0;
     for step in 0..220 {
         // The first steps follow the change of the moment.

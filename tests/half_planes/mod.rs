@@ -9,8 +9,8 @@ use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::{ContactGrid, GridState};
 use wheelrail::contact::{
-    AxisDrive, Begin, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
-    LineKernel, LineProblem, RigidMotion, SolverState, Spin, SteelLimits, SurfaceResponse,
+    ActiveSetScratch, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction, Influence, LineKernel,
+    LineProblem, RigidMotion, Spin, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -175,12 +175,11 @@ impl HalfPlanes {
             spin: Spin::default(),
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,
-            layouts: None,
             begin: Begin::Before(1.0),
         };
         let mut found = vec![ContactState::default(); lines.len()];
         let mut places: Vec<_> = found.iter_mut().collect();
-        self.solver.solve(&problem, start, &mut places, &mut ContactScratch::default())?;
+        self.solver.solve(&problem, start, &mut places, &mut ActiveSetScratch::default())?;
         Ok(found)
     }
 
@@ -213,13 +212,10 @@ impl HalfPlanes {
 
 /// Memory of the solver on the grid.
 pub fn grid_state(state: &ContactState) -> &GridState {
-    state.solver.grid().unwrap()
+    &state.grid
 }
 
 /// Memory of the solver on the grid, to be changed.
 pub fn grid_state_mut(state: &mut ContactState) -> &mut GridState {
-    match &mut state.solver {
-        SolverState::Grid(grid) => grid,
-        other => panic!("state of another solver: {other:?}"),
-    }
+    &mut state.grid
 }

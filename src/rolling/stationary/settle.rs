@@ -193,9 +193,7 @@ impl Pass<'_> {
             solved = model.contact.solve(&contact, &state.lines, &mut next.lines, scratch);
         }
         solved.map_err(|error| match self.check_adhesion(state, trial, NEARLY_ALL) {
-            Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. }) => {
-                beyond
-            }
+            Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. }) => beyond,
             _ => model.contact.failure(error, 0.0, 0.0),
         })
     }
