@@ -37,7 +37,7 @@ pub const RETIRED: &[Retired] = &[
         name: "solver.contact",
         since: "0.17.0",
         last: "0.16.4",
-        instead: "contact forces are always found on nodes, mesh.grid_elements_per_half_width of them; remove it",
+        instead: "contact forces are always found on contact nodes (mesh.grid_elements_per_half_width); remove it",
     },
 ];
 
