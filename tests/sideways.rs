@@ -87,6 +87,26 @@ fn steady_forces_under_creepage_and_spin_are_those_of_contact() {
     let (reference, mut beyond) = (reference(), Vec::new());
     for set in reference["steady"].as_array().unwrap() {
         let aspect = number(&set["aspect"]);
+        for lines in [5, 7, 9, 13] {
+            let found =
+                missed(&HalfSpaces::sideways(aspect, lines), set, &format!("{aspect:.1} {lines}"), |kind| match kind {
+                    "xi" => [0.01, 1e-3, 1e-3],
+                    "eta" => [1e-3, if aspect > 1.5 { 0.016 } else { 0.012 }, 0.010],
+                    "phi" => [0.001, 0.025, 0.025],
+                    _ => [0.03, 0.04, 0.03],
+                });
+            beyond.extend(found.into_iter().filter(|_| lines >= 7));
+        }
+    }
+    assert!(beyond.is_empty(), "{beyond:?}");
+}
+
+/// The reference is too large by up to .007.
+#[test]
+fn steady_forces_on_more_nodes_are_those_of_contact() {
+    let (reference, mut beyond) = (reference(), Vec::new());
+    for set in reference["steady"].as_array().unwrap() {
+        let aspect = number(&set["aspect"]);
         for nodes in [10, 20, 40] {
             let (spaces, spin) =
                 (HalfSpaces::sideways_on_nodes(aspect, 7, nodes), if aspect < 1.0 { 0.021 } else { 0.013 });

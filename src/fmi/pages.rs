@@ -33,7 +33,6 @@ const PAGES: [(&str, &str); 30] = files![include_str:
     "theory/contact.md",
     "theory/edge-consistent-rows.md",
     "theory/kernel-correction.md",
-    "theory/patch-contact.md",
     "theory/elastic-layer.md",
     "theory/lever-arms.md",
     "theory/lines.md",
