@@ -17,7 +17,7 @@ macro_rules! files {
 }
 
 /// The pages, in the order in which they are read.
-const PAGES: [(&str, &str); 30] = files![include_str:
+const PAGES: [(&str, &str); 29] = files![include_str:
     "profiles.md",
     "patches.md",
     "coupling.md",

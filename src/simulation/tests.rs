@@ -71,9 +71,8 @@ fn work(preset: &str, height: f64, (course, milliseconds): (Course, usize)) -> V
     counts.iter().zip(before).map(|((solved, steps), before)| [solved - before, *steps]).collect()
 }
 
-/// A millisecond of calm rolling takes one step and no linear problem: it is on points. Flights, landings and steel that yields
-/// are on nodes, where steps of 16 µs resolve a strike: their milliseconds take far more than ten times its work. Bounded is the
-/// work of a step: no search stalls, and most steps take a single one. `most`: linear problems in a millisecond, and in a step
+/// A millisecond of calm rolling takes one step and one linear problem, the first one besides those of the start. Steps of 16 µs resolve
+/// a strike: milliseconds of flights and landings take far more than ten times that work. Bounded is the work of a step: no search stalls, and most steps take a single one. `most`: linear problems in a millisecond, and in a step
 /// on average.
 #[test]
 fn flights_and_load_jumps_take_few_linear_problems_a_step() {
@@ -82,7 +81,7 @@ fn flights_and_load_jumps_take_few_linear_problems_a_step() {
     let jumps: Course =
         |inputs, t| inputs.drive.load = if ((200.0 * t - 0.1) as u64).is_multiple_of(2) { 0.0 } else { 2e5 };
     for preset in ["railway_ellipse", "railway_s1002_3mm"] {
-        assert_eq!(work(preset, 0.0, (calm, 5)), [[0, 1]; 5], "{preset}");
+        assert_eq!(work(preset, 0.0, (calm, 5))[1..], [[1, 1]; 4], "{preset}");
         for (name, height, course, most) in [
             ("load ±40 % at 15 Hz", 0.0, (sine, 30), [45, 2]),
             ("load 0 and 200 % in turns of 5 ms", 0.0, (jumps, 11), [350, 3]),

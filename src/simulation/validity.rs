@@ -47,7 +47,7 @@ limits! {
     StickSlip,
     /// Internal step below which friction that falls with the slip has no definite value.
     Chatter,
-    /// Wavelength of the surfaces that the contact grid resolves.
+    /// Wavelength of the surfaces that contact nodes resolve.
     Waves,
     /// Height of the surfaces that internal steps pass over.
     Sampling,
