@@ -154,7 +154,7 @@ fn transients(count: u64, spaces: &HalfSpaces, mass: f64) -> Count {
 /// the rail, in steps of a hundredth to ten half-lengths of the patch.
 #[test]
 fn ten_thousand_random_steps_are_solved_within_the_cone_and_none_costs_twelve_times_the_mean() {
-    transients(1000, &HalfSpaces::sideways(1.0, 5), 0.0).check("held", 12.0);
+    transients(1000, &HalfSpaces::sideways_on_nodes(1.0, 5, 10), 0.0).check("held", 12.0);
 }
 
 /// Six to nine linear problems a step.
@@ -173,7 +173,7 @@ fn random_steps_are_solved_on_patches_of_every_shape_with_velocities_held_and_fr
 #[test]
 fn random_steady_states_are_found_from_a_wheel_that_touches() {
     for aspect in [0.5, 1.0, 2.0] {
-        let (spaces, mut seen) = (HalfSpaces::sideways(aspect, 7), Count::default());
+        let (spaces, mut seen) = (HalfSpaces::sideways_on_nodes(aspect, 7, 10), Count::default());
         for seed in 0..200 {
             let mut random = Random(seed);
             let load = LOAD * random.logarithmic(0.05, 3.0);

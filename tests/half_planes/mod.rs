@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{HalfPlane, carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::active_set::ActiveSetSolver;
-use wheelrail::contact::line::{ContactGrid, GridState};
+use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::{
     ActiveSetScratch, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction, Influence, LineKernel,
     LineProblem, RigidMotion, Spin, SteelLimits, SurfaceResponse,
@@ -201,21 +201,11 @@ impl HalfPlanes {
 
     /// Nodal normal force at a candidate [N/m].
     pub fn normal(&self, state: &ContactState, i: usize) -> f64 {
-        grid_state(state).forces[self.grid.component(i) + 1]
+        state.grid.forces[self.grid.component(i) + 1]
     }
 
     /// Nodal tangential force at a candidate [N/m].
     pub fn tangential(&self, state: &ContactState, i: usize) -> f64 {
-        grid_state(state).forces[self.grid.component(i)]
+        state.grid.forces[self.grid.component(i)]
     }
-}
-
-/// Memory of the solver on the grid.
-pub fn grid_state(state: &ContactState) -> &GridState {
-    &state.grid
-}
-
-/// Memory of the solver on the grid, to be changed.
-pub fn grid_state_mut(state: &mut ContactState) -> &mut GridState {
-    &mut state.grid
 }
