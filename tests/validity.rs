@@ -226,6 +226,8 @@ fn short_patches_are_told_with_the_size_of_their_errors() {
             let seen = |elements: usize| {
                 let mut config = preset(name, 20);
                 config.thermal.enabled = false;
+                // Nodes do not follow the load where surfaces have a profile.
+                config.rail.profile = "sinusoid(amplitude = 1e-9, wavelength = 0.5)".into();
                 config.mesh.grid_elements_per_half_width = elements;
                 let model = model(config);
                 let growth = if name == "railway" { f64::sqrt(share) } else { f64::cbrt(share) };
