@@ -55,6 +55,10 @@ fn a_wheel_with_heat_moves_as_on_more_nodes_and_its_energy_is_accounted_for() {
     }
 }
 
+/// Shift of the creepage of free rolling of a wheel 300 K hotter than the rail at 27.8 m/s, found with tractions as series and 40
+/// elements \[1].
+const SHIFT: f64 = 1.67e-5;
+
 /// The rail chills a hot wheel, whose tread contracts: it rolls freely at another creepage, which depends on how meshes resolve the
 /// root with which the heat begins to flow.
 #[test]
@@ -73,7 +77,8 @@ fn a_chilled_tread_changes_the_creepage_of_free_rolling_by_what_finer_meshes_ten
     let shifts = [10, 20, 40].map(shift);
     figure_within(0.05, "nodes.chill", &shifts.map(|shift| 1e5 * shift));
     println!("shift {shifts:?} with 10, 20, 40 elements");
-    assert!((shifts[1] - shifts[2]).abs() < 0.65 * (shifts[0] - shifts[1]).abs());
+    let away = shifts.map(|shift| shift - SHIFT);
+    assert!(away[2] > 0.0 && away[2] < 0.65 * away[1]);
 }
 
 /// Rises \[K] of the highest temperature of the wheel: 4.6941, 4.6938, 4.6890 and 4.6880 with 10, 20, 40 and 80 elements.

@@ -98,33 +98,22 @@ fn changes_with_the_load(mut config: Config, nominal: f64, steps: usize) -> [[f6
     })
 }
 
-/// Nothing jumps, and as slope of the pressure comes out a third of pressure over load where the wheel is carried by the
-/// load alone.
-#[test]
-fn pressure_size_and_forces_change_smoothly_with_the_load() {
-    for name in PATCHES {
-        for (nominal, hot) in [(1e5, true), (1e5, false), (3e4, false)] {
-            let mut config = preset(name, 10);
-            config.thermal.enabled = hot;
-            for (k, [median, largest]) in changes_with_the_load(config, nominal, 20).into_iter().enumerate() {
-                println!("{name}, {nominal} N, hot {hot}, {k}: largest change {:.3} medians", largest / median);
-                assert!(median > 0.0 && largest < 2.0 * median, "{largest:e} {median:e}");
-            }
-        }
-    }
-}
-
 /// Nothing jumps where edges move from node to node; the width follows in stretches. Measured: 2.9 medians on a smooth
 /// rail, 2.6 on a rough one, where a force that jumped by 12 told of weights that jumped as a node closed.
 #[test]
 fn pressure_size_and_forces_change_by_five_medians_at_most() {
     let rough = |name| (name, "roughness(spectrum = EN_ISO_3095)");
     for (name, profile) in PATCHES.map(|name| (name, "")).into_iter().chain(PATCHES.map(rough)) {
-        let mut config = preset(name, 10);
-        config.rail.profile = profile.into();
-        for (k, [median, largest]) in changes_with_the_load(config, 1e5, 20).into_iter().take(4).enumerate() {
-            println!("{name}, {profile:?}, {k}: largest change {:.3} medians", largest / median);
-            assert!(largest <= 5.0 * median, "{largest:e} {median:e}");
+        for (nominal, hot) in [(1e5, true), (1e5, false), (3e4, false)] {
+            let mut config = preset(name, 10);
+            (config.rail.profile, config.thermal.enabled) = (profile.into(), hot);
+            for (k, [median, largest]) in changes_with_the_load(config, nominal, 20).into_iter().take(4).enumerate() {
+                println!(
+                    "{name}, {profile:?}, {nominal} N, hot {hot}, {k}: largest change {:.3} medians",
+                    largest / median
+                );
+                assert!(median > 0.0 && largest <= 5.0 * median, "{largest:e} {median:e}");
+            }
         }
     }
 }

@@ -43,6 +43,7 @@ fn hertz_errors(n: usize) -> (f64, f64) {
 #[test]
 fn hertz_half_width_within_two_per_mille_on_every_mesh_and_pressure_of_second_order() {
     let [coarse, middle, fine] = [5, 10, 20].map(hertz_errors);
+    figure("hertz.20", &[fine.0, fine.1]);
     figure("hertz.10", &[middle.0, middle.1]);
     figure("hertz.5", &[coarse.0, coarse.1]);
     println!("half-width error {:.2e} {:.2e} {:.2e}", coarse.0, middle.0, fine.0);
