@@ -153,8 +153,8 @@ fn transients(count: u64, spaces: &HalfSpaces, mass: f64) -> Count {
 /// Directions turn, reverse and vanish, the spin changes its sign, loads change by 30 %, the wheel stands, locks and leaves
 /// the rail, in steps of a hundredth to ten half-lengths of the patch.
 #[test]
-fn ten_thousand_random_steps_are_solved_within_the_cone_and_none_costs_twelve_times_the_mean() {
-    transients(1000, &HalfSpaces::sideways_on_nodes(1.0, 5, 10), 0.0).check("held", 12.0);
+fn three_thousand_random_steps_are_solved_within_the_cone_and_none_costs_twelve_times_the_mean() {
+    transients(300, &HalfSpaces::sideways_on_nodes(1.0, 5, 10), 0.0).check("held", 12.0);
 }
 
 /// Six to nine linear problems a step.
@@ -164,8 +164,8 @@ fn random_steps_are_solved_on_patches_of_every_shape_with_velocities_held_and_fr
         [(0.5, 7, 10), (1.0, 7, 20), (2.0, 7, 20), (0.5, 9, 10), (1.0, 9, 10), (2.0, 9, 10), (1.0, 13, 10)]
     {
         let spaces = HalfSpaces::sideways_on_nodes(aspect, lines, nodes);
-        transients(50, &spaces, 0.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, held"), 12.0);
-        transients(50, &spaces, 500.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, free"), 12.0);
+        transients(20, &spaces, 0.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, held"), 12.0);
+        transients(20, &spaces, 500.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, free"), 12.0);
     }
 }
 
@@ -174,7 +174,7 @@ fn random_steps_are_solved_on_patches_of_every_shape_with_velocities_held_and_fr
 fn random_steady_states_are_found_from_a_wheel_that_touches() {
     for aspect in [0.5, 1.0, 2.0] {
         let (spaces, mut seen) = (HalfSpaces::sideways_on_nodes(aspect, 7, 10), Count::default());
-        for seed in 0..200 {
+        for seed in 0..60 {
             let mut random = Random(seed);
             let load = LOAD * random.logarithmic(0.05, 3.0);
             let mut creepage = || SATURATION * random.logarithmic(0.01, 20.0) * [-1.0, 1.0][random.below(2)];
