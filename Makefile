@@ -144,7 +144,7 @@ test-fmpy: $(FMU) $(FMU3) $(COACH) $(BENCH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BR
 	$(PY) -m unittest discover --quiet --pattern test_structural_width.py tools
 
 # Programs that take less than a second each, from every room of the house.
-QUICK := architecture documents model_description fmi_lifecycle contact_two_patches second_contact_solver \
+QUICK := architecture documents model_description fmi_lifecycle contact_two_patches \
 	opposed_rolling heat_closed_forms reversible_heating energy_in_the_air
 # Unit tests of more than two seconds of CPU, which only `make test` runs.
 LONG_UNITS := modes_of_long_low_rails_are_found_although_they_crowd energy_that_dashpots_take_is_what_the_body_loses \

@@ -4,7 +4,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::time::{Duration, Instant};
-use wheelrail::config::{Config, ContactMethod, Response};
+use wheelrail::config::{Config, Response};
 use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
 
 /// A rolling wheel under a braking moment of about half the adhesion limit.
@@ -60,13 +60,12 @@ fn steps(c: &mut Criterion) {
             simulation.advance(&inputs, 1e-3 * (1.0 + 0.01 * f64::from(k % 50))).expect("step")
         })
     });
-    for contact in [ContactMethod::Grid, ContactMethod::Patch] {
-        let mut config = Config::default();
-        (config.thermal.enabled, config.solver.contact) = (false, contact);
-        let (mut simulation, inputs) = braking(Model::prepare(config, &store, &mut |_, _| {}).expect("model"));
-        let name = format!("step without heat 1 ms, braking, contact: {contact:?}");
-        c.bench_function(&name, |b| b.iter(|| simulation.advance(&inputs, 1e-3).expect("step")));
-    }
+    let mut config = Config::default();
+    config.thermal.enabled = false;
+    let (mut simulation, inputs) = braking(Model::prepare(config, &store, &mut |_, _| {}).expect("model"));
+    c.bench_function("step without heat 1 ms, braking", |b| {
+        b.iter(|| simulation.advance(&inputs, 1e-3).expect("step"));
+    });
     println!("state: {} kB", postcard::to_stdvec(simulation.state()).expect("bytes").len() / 1024);
 
     let mut config = Config::default();

@@ -84,7 +84,7 @@ def setting(text):
     """Name and value of `NAME=VALUE`."""
     name, equals, value = text.partition("=")
     if not equals:
-        raise argparse.ArgumentTypeError(f"{text}: expected NAME=VALUE, such as solver.contact=auto")
+        raise argparse.ArgumentTypeError(f"{text}: expected NAME=VALUE, such as contact.lines=5")
     if value in ("true", "false"):
         return name, value == "true"
     try:

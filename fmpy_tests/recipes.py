@@ -148,7 +148,7 @@ NOT_RUN = {
         "make random-temperatures", "make leak-check", "make bench", "make bench-ordinary", "make bench-ordinary BEFORE=…",
         "make bench-ordinary BEFORE=older/libwheelrail.so", "make bench-ordinary BEFORE=path/libwheelrail.so",
         'make bench-ordinary BEFORE=older.fmu ARGS="--cases varying-30,lock-up --repeats 5 --json results/ordinary.json"',
-        'make bench-ordinary BEFORE=older.fmu ARGS="--set solver.contact=auto --set mesh.elements_per_half_width=10"',
+        'make bench-ordinary BEFORE=older.fmu ARGS="--set mesh.grid_elements_per_half_width=20 --set mesh.elements_per_half_width=10"',
         "make locked-wheels", "tools/structural_width.py", "tools/structural_width.py wheels",
         "cargo bench",
     ),

@@ -50,7 +50,7 @@
 //! | [`mechanics`] | bodies: [`mechanics::BodyResponse`] | [ale-balance], [condensation], [damping], [rail-ends] |
 //! | [`heat`] | temperature of both bodies behind [`heat::HeatModel`]: boundary-layer meshes, direct solver | [heat] |
 //! | [`surface`] | shapes of both surfaces: files, waves, roughness, holes, joints, flats; dents; wear | [profiles] |
-//! | [`contact`] | Coulomb contact behind [`contact::ContactSolver`]; friction laws | [contact], [patch-contact] |
+//! | [`contact`] | Coulomb contact; friction laws | [contact] |
 //! | [`damage`] | history of hot places of the tread, structure of the steel | [material-history] |
 //! | [`rolling`] | steady and transient rolling, control, outputs, audit | [lever-arms], [friction-and-coupling] |
 //! | [`simulation`] | façade: configuration → shared model → advance → outputs; stored bases, advice | |
@@ -68,7 +68,6 @@
 //! [lever-arms]: ../../../docs/theory/lever-arms.md
 //! [material-history]: ../../../docs/theory/material-history.md
 //! [lines]: ../../../docs/theory/lines.md
-//! [patch-contact]: ../../../docs/theory/patch-contact.md
 //! [profiles]: ../../../docs/theory/profiles.md
 //! [rail-ends]: ../../../docs/theory/rail-ends.md
 //! [time-formula]: ../../../docs/theory/time-formula.md

@@ -51,13 +51,6 @@ impl TimeDerivative {
         self.a0 * now + self.b1 * before - self.a2 * last
     }
 
-    /// Length of the step over that of the step before \[1]; zero where the formula does not look back so far.
-    pub fn step_ratio(&self) -> f64 {
-        // `a1 = −(1 + r)/Δt` and `a2 = r²/((1 + r) Δt)`.
-        let share = (-self.a2 / self.a1).sqrt();
-        if share > 0.0 { share / (1.0 - share) } else { 0.0 }
-    }
-
     /// No time derivative at all: every step is an equilibrium.
     pub fn is_stationary(&self) -> bool {
         *self == Self::default()

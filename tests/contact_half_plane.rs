@@ -5,7 +5,7 @@ mod common;
 mod half_planes;
 
 use common::Random;
-use half_planes::{HalfPlanes, NOMINAL, RADIUS, grid_state, grid_state_mut, modulus};
+use half_planes::{HalfPlanes, NOMINAL, RADIUS, modulus};
 use wheelrail::analytic::hertz_half_width;
 use wheelrail::axes::Axis;
 use wheelrail::contact::ContactError;
@@ -94,14 +94,14 @@ fn every_random_start_converges_to_the_same_contact_state() {
         let expected = bodies.roll(load, xi, &bodies.start()).unwrap_or_else(|e| panic!("case {case}: {e}"));
         let mut start = bodies.start();
         for i in 0..bodies.grid.len() {
-            grid_state_mut(&mut start).status[i] =
+            start.grid.status[i] =
                 [NodeStatus::Open, NodeStatus::Stick, NodeStatus::SlipForward, NodeStatus::SlipBackward]
                     [random.between(0.0, 4.0) as usize];
             let at = bodies.grid.component(i) + 1;
-            grid_state_mut(&mut start).forces[at] = random.between(0.0, load / 20.0);
+            start.grid.forces[at] = random.between(0.0, load / 20.0);
         }
         let found = bodies.roll(load, xi, &start).unwrap_or_else(|e| panic!("case {case}, xi = {xi}: {e}"));
-        let difference = (&grid_state(&found).forces - &grid_state(&expected).forces).amax() / load;
+        let difference = (&found.grid.forces - &expected.grid.forces).amax() / load;
         let solution = found.traction;
         assert!(difference < 1e-3, "case {case}, xi = {xi}, load {load}: {difference}");
         worst = worst.max(solution.iterations);

@@ -8,7 +8,7 @@
 mod common;
 mod half_planes;
 
-use half_planes::{FRICTION, HalfPlanes, NOMINAL, grid_state, grid_state_mut, modulus};
+use half_planes::{FRICTION, HalfPlanes, NOMINAL, modulus};
 use std::f64::consts::PI;
 use wheelrail::analytic::hertz_half_width;
 use wheelrail::contact::ContactState;
@@ -55,7 +55,7 @@ fn roll(bodies: &HalfPlanes, load: f64, creepage: f64) -> ContactState {
     let (mut start, x, well) = (bodies.start(), &bodies.grid.x, DoubleWell::new());
     let lowest = |nodes: std::ops::Range<usize>| nodes.min_by(|&i, &j| well.gap(x[i]).total_cmp(&well.gap(x[j])));
     let middle = x.len() / 2;
-    let status = &mut grid_state_mut(&mut start).status;
+    let status = &mut start.grid.status;
     status.fill(NodeStatus::Open);
     for node in [lowest(0..middle), lowest(middle..x.len())].into_iter().flatten() {
         status[node] = NodeStatus::Stick;
@@ -119,7 +119,7 @@ fn forces_press_gaps_are_open_and_friction_stays_in_its_cone_on_two_patches() {
     let deepest = bodies.grid.x.iter().fold(0.0, |low: f64, &x| low.min(well.gap(x))).abs();
     for creepage in [0.0, 2e-4, -4e-4, 1e-2] {
         let solution = roll(&bodies, NOMINAL, creepage);
-        let grid = grid_state(&solution);
+        let grid = &solution.grid;
         for i in 0..bodies.grid.len() {
             let (n, t) = (bodies.normal(&solution, i), bodies.tangential(&solution, i));
             assert!(n >= 0.0 && grid.gap[i] >= -1e-9 * deepest, "node {i}: force {n}, gap {}", grid.gap[i]);

@@ -1,10 +1,10 @@
-//! Derivatives by inputs while everything varies in every step, on points and on fixed nodes, in internal steps of any
+//! Derivatives by inputs while everything varies in every step, in internal steps of any
 //! length: those of the repeated step, whatever it decides on its way.
 
 mod common;
 
 use common::{model, shipped};
-use wheelrail::config::{Config, ContactMethod};
+use wheelrail::config::Config;
 use wheelrail::simulation::{Drive, Inputs, Outputs, Read, Simulation};
 
 /// Inputs with the sizes over which outputs bend, for a load of 100 kN.
@@ -65,14 +65,9 @@ fn outputs() -> Vec<Named> {
     OUTPUTS.iter().map(row).collect()
 }
 
-/// Compares all derivatives in 25 steps of 1 ms with central differences of either size; at a kink they are those of one side.
-/// Returns the number of pairs and of those at kinks.
-fn agree(config: Config) -> [usize; 2] {
-    agree_to(BOUND, config)
-}
-
-/// Compares like [`agree`], within another relative error.
-fn agree_to(bound: f64, config: Config) -> [usize; 2] {
+/// Compares all derivatives in 25 steps of 1 ms with central differences of either size, within a relative error; at a kink they are
+/// those of one side. Returns the number of pairs and of those at kinks.
+fn agree(bound: f64, config: Config) -> [usize; 2] {
     let radius = config.wheel.radius;
     let model = model(config);
     let start = Inputs::rolling(model.config());
@@ -127,43 +122,29 @@ fn undivided(name: &str) -> Config {
     config
 }
 
-/// A configuration with contact on fixed nodes.
-fn on_nodes(mut config: Config) -> Config {
-    config.solver.contact = ContactMethod::Grid;
-    config
-}
-
 /// The rail warms by 10 K within the run, where the swelling of hot layers begins to be smoothed. Measured: 4e-7; where the
 /// swelling jumped, .6.
 #[test]
 fn derivatives_in_divided_steps_are_those_of_the_repeated_step_while_the_rail_warms() {
-    for name in ["railway", "railway_ellipse"] {
-        let [pairs, kinks] = agree(shipped(name));
-        // A pair at a kink of the repeated step is that of one side.
-        assert!(pairs > 2000 && kinks <= 1);
-    }
-}
-
-/// The temperature at which friction acts has no kink where points of the pressure pass nodes of the temperatures. Measured:
-/// 2e-8; where it had some, 1e-4.
-#[test]
-fn derivatives_of_the_temperature_of_friction_are_those_of_the_repeated_step_on_moving_points() {
-    assert_eq!(agree(undivided("railway_ellipse"))[1], 0);
+    let [pairs, kinks] = agree(BOUND, shipped("railway"));
+    // A pair at a kink of the repeated step is that of one side.
+    assert!(pairs > 2000 && kinks <= 1);
 }
 
 /// As nodes are about to close the weights of their neighbours come to their new values without a kink. Measured: 2e-6; where
 /// they had one, 7e-3. In divided steps some of 2415 derivatives are those of one side, since layouts begin with the load to come, and
 /// nodes go with it: 1e-4. On S1002 four pairs are those of one side, to 1.4e-4.
 #[test]
-fn derivatives_on_fixed_nodes_are_those_of_the_repeated_step_where_a_node_is_about_to_close() {
+fn derivatives_are_those_of_the_repeated_step_where_a_node_is_about_to_close() {
     let cases = [
-        (undivided("railway_ellipse"), BOUND, 2),
+        // The temperature at which friction acts has no kink where nodes of the contact pass those of the temperatures.
+        (undivided("railway_ellipse"), BOUND, 0),
         // The step of the derivatives by friction lies across a kink once: slopes of its sides differ by 4e-3 of the scale.
         (undivided("railway_s1002_3mm"), 6e-4, 6),
         (shipped("railway_ellipse"), 2e-4, 20),
     ];
     for (config, bound, most) in cases {
-        let [pairs, kinks] = agree_to(bound, on_nodes(config));
+        let [pairs, kinks] = agree(bound, config);
         assert!(pairs > 2000 && kinks <= most);
     }
 }

@@ -115,7 +115,7 @@ fn creepage_that_jumps_or_swings_and_loads_that_vary_give_the_forces_of_contact(
     }
 }
 
-/// On nodes, of which ten are as right as twenty: they go with the load, and displacements that earlier tractions have left with the
+/// Ten nodes are as right as twenty: they go with the load, and displacements that earlier tractions have left with the
 /// width of their line. Where these were carried on unchanged, on nodes that stay, the force of a load that swings was .009 off.
 #[test]
 fn nodes_that_scale_with_their_line_give_the_forces_of_contact_as_creepage_and_load_vary() {

@@ -4,7 +4,7 @@ mod common;
 use common::*;
 use std::sync::Arc;
 use wheelrail::analytic::{carter_full_slip, contact_modulus, hertz_half_width};
-use wheelrail::config::{Config, ContactMethod, ContactShape, StartTemperature};
+use wheelrail::config::{Config, ContactShape, StartTemperature};
 use wheelrail::simulation::{Inputs, Model, Rotation, Simulation, Translation};
 
 /// The preset with a number of lines and of elements per half axis.
@@ -37,31 +37,15 @@ fn pressure_half_axis_and_approach_of_the_wheel_are_those_of_hertz_under_any_loa
 }
 
 #[test]
-fn braking_with_varying_load_friction_and_rail_balances_energy_and_agrees_on_series_and_grid() {
-    let results: Vec<_> = [ContactMethod::Auto, ContactMethod::Grid]
-        .into_iter()
-        .map(|method| {
-            let mut config = ellipse(5, 10, true);
-            config.mesh.grid_elements_per_half_width = 20;
-            config.solver.contact = method;
-            (config.tuning.tolerance, config.tuning.max_step) = (0.0, 2.5e-4);
-            let model = model(config);
-            let mut inputs = Inputs::rolling(model.config());
-            inputs.drive.moment = -4000.0;
-            run(&model, inputs, (1e-3, 60), vary)
-        })
-        .collect();
-    let mut worst = [0.0_f64; 4];
-    for (a, b) in results[0].iter().zip(&results[1]) {
-        worst[0] = worst[0].max((a.contact_force_x - b.contact_force_x).abs() / 3e4);
-        worst[1] = worst[1].max((a.contact_force_y / b.contact_force_y - 1.0).abs());
-        worst[2] = worst[2].max((a.contact_pressure_max / b.contact_pressure_max - 1.0).abs());
-        worst[3] = worst[3].max((a.temperature_wheel_max - b.temperature_wheel_max).abs());
-    }
-    let residuals = [&results[0], &results[1]].map(|seen| seen[60].energy_residual);
-    println!("series and grid differ by {worst:?}; residuals {residuals:?}");
-    assert!(residuals.iter().all(|residual| residual.abs() < 5.2e-3));
-    assert!(worst[0] < 5e-3 && worst[1] < 2e-3 && worst[2] < 1e-2 && worst[3] < 2.0);
+fn braking_with_varying_load_friction_and_rail_balances_energy() {
+    let mut config = ellipse(5, 10, true);
+    (config.tuning.tolerance, config.tuning.max_step) = (0.0, 2.5e-4);
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    inputs.drive.moment = -4000.0;
+    let residual = run(&model, inputs, (1e-3, 60), vary)[60].energy_residual;
+    println!("residual {residual:.1e}");
+    assert!(residual.abs() < 5.2e-3);
 }
 
 /// Lines widen and narrow with the load; what they carry of the shear before keeps its energy. With displacements that

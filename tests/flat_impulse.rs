@@ -11,7 +11,7 @@ use common::{model, prescribed, preset};
 use nalgebra::{Cholesky, DMatrix, DVector};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
-use wheelrail::config::{Config, ContactMethod};
+use wheelrail::config::Config;
 use wheelrail::material::Isotropic;
 use wheelrail::simulation::{Inputs, Model, Simulation};
 
@@ -23,7 +23,6 @@ const MIDDLE: f64 = 0.08;
 fn heavy(hub_mass: f64, elements: usize) -> Config {
     let mut config = preset("railway", elements);
     config.thermal.enabled = false;
-    config.solver.contact = ContactMethod::Grid;
     (config.tuning.tolerance, config.physics.yielding) = (0.0, false);
     (config.wheel.hub_mass, config.vehicle.damping, config.damping.modal) = (hub_mass, 0.0, false);
     config

@@ -95,10 +95,8 @@ fn a_value_that_is_no_value_is_refused_with_a_short_message_for_every_variable()
 #[test]
 fn limits_of_the_model_are_told_once_with_both_numbers_although_no_log_was_asked_for() {
     let dll = load();
-    let [auto, grid] = [1, 2];
-    let warnings = |contact: i32, settings: &[(&str, f64)]| {
+    let warnings = |settings: &[(&str, f64)]| {
         let slave = Slave::coarse(&dll);
-        assert_eq!(slave.set_integer("solver.contact", contact), fmi2OK);
         for (name, value) in settings {
             assert_eq!(slave.set_real(name, *value), fmi2OK);
         }
@@ -108,9 +106,9 @@ fn limits_of_the_model_are_told_once_with_both_numbers_although_no_log_was_asked
         assert!(messages.iter().all(|m| m.status == fmi2Warning && m.category == "logStatusWarning"), "{messages:?}");
         messages.into_iter().map(|message| message.text).collect::<Vec<_>>()
     };
-    assert_eq!(warnings(auto, &[]), [""; 0]);
+    assert_eq!(warnings(&[]), [""; 0]);
     let one = |settings: &[(&str, f64)], words: &[&str]| {
-        let found = warnings(auto, settings);
+        let found = warnings(settings);
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(words.iter().all(|word| found[0].contains(word)), "{found:?}");
     };
@@ -119,10 +117,8 @@ fn limits_of_the_model_are_told_once_with_both_numbers_although_no_log_was_asked
     one(&load, &["load 40000 N", "thermal.smallest_load_ratio x model.nominal_load = 50000 N", "lower"]);
     one(&[("drive.load", 205e3)], &["load 205", "2 x model.nominal_load = 200000 N", "drive.load"]);
     let little = [("drive.load", 10e3), ("thermal.smallest_load_ratio", 0.09)];
-    // A series resolves every patch.
-    assert_eq!(warnings(auto, &little), [""; 0]);
-    let found = warnings(grid, &little);
-    assert!(found.len() == 1 && found[0].contains("mesh.grid_elements_per_half_width"), "{found:?}");
+    // Contact nodes follow the load.
+    assert_eq!(warnings(&little), [""; 0]);
 }
 
 #[test]

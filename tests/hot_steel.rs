@@ -5,7 +5,7 @@
 mod common;
 
 use common::{model, preset};
-use wheelrail::config::{Config, ContactMethod, Material, StartTemperature};
+use wheelrail::config::{Config, Material, StartTemperature};
 use wheelrail::heat::{
     Exchange, HeatError, HeatFlows, HeatLine, HeatModel, HeatScratch, HeatState, Observation, TemperatureField,
 };
@@ -110,9 +110,8 @@ fn standing(config: &Config, told: &Told) -> (State, Outputs) {
     (state, seen)
 }
 
-fn steel(contact: ContactMethod) -> Config {
+fn steel() -> Config {
     let mut config = preset("railway", 10);
-    config.solver.contact = contact;
     (config.initial.velocity, config.initial.temperature) = (0.0, StartTemperature::Uniform);
     config
 }
@@ -122,31 +121,29 @@ fn steel(contact: ContactMethod) -> Config {
 #[test]
 fn heated_half_spaces_lift_the_wheel_by_their_swelling_and_are_held_by_their_membrane_force() {
     let (alpha, nu, modulus) = (1.2e-5, 0.3, 210e9);
-    for contact in [ContactMethod::Patch, ContactMethod::Grid] {
-        let config = steel(contact);
-        let (_, cold) = standing(&config, &Told::default());
-        for layers in [[0.2, 0.0], [0.0, 0.2], [0.15, 0.05]] {
-            let (state, hot) = standing(&config, &Told { layers, ..Told::default() });
-            let swelling = layers.map(|heat| (1.0 + nu) / (1.0 - nu) * alpha * heat);
-            let membrane = layers.map(|heat| modulus * alpha / (1.0 - nu) * heat);
-            let (lift, expected) = (hot.hub_height - cold.hub_height, swelling[0] + swelling[1]);
-            println!("{contact:?}, {layers:?} K m: lift {lift:.6e} of {expected:.6e} m");
-            let deformation = state.lines[0].deformation();
-            for body in [0, 1] {
-                let [swollen, held] = [&deformation.swelling, &deformation.membrane_force].map(|of| of[body].at(0.0));
-                println!("body {body}: {swollen:.5e} m, {held:.5e} N/m");
-                assert!((swollen - swelling[body]).abs() <= 1e-12 * expected);
-                assert!((held - membrane[body]).abs() <= 1e-12 * (membrane[0] + membrane[1]));
-            }
-            assert!((lift / expected - 1.0).abs() < 1e-6, "{lift:e} for {expected:e}");
+    let config = steel();
+    let (_, cold) = standing(&config, &Told::default());
+    for layers in [[0.2, 0.0], [0.0, 0.2], [0.15, 0.05]] {
+        let (state, hot) = standing(&config, &Told { layers, ..Told::default() });
+        let swelling = layers.map(|heat| (1.0 + nu) / (1.0 - nu) * alpha * heat);
+        let membrane = layers.map(|heat| modulus * alpha / (1.0 - nu) * heat);
+        let (lift, expected) = (hot.hub_height - cold.hub_height, swelling[0] + swelling[1]);
+        println!("{layers:?} K m: lift {lift:.6e} of {expected:.6e} m");
+        let deformation = state.lines[0].deformation();
+        for body in [0, 1] {
+            let [swollen, held] = [&deformation.swelling, &deformation.membrane_force].map(|of| of[body].at(0.0));
+            println!("body {body}: {swollen:.5e} m, {held:.5e} N/m");
+            assert!((swollen - swelling[body]).abs() <= 1e-12 * expected);
+            assert!((held - membrane[body]).abs() <= 1e-12 * (membrane[0] + membrane[1]));
         }
+        assert!((lift / expected - 1.0).abs() < 1e-6, "{lift:e} for {expected:e}");
     }
 }
 
 /// `α T̄ r` of the mean temperature of a free wheel; the hub rises by it.
 #[test]
 fn a_warm_wheel_grows_by_expansion_times_temperature_times_radius_and_stands_higher_by_that() {
-    let config = steel(ContactMethod::Auto);
+    let config = steel();
     let [cold, warm] = [0.0, 40.0].map(|wheel| standing(&config, &Told { wheel, ..Told::default() }).1);
     let (expected, lift) = (1.2e-5 * 40.0 * 0.46, warm.hub_height - cold.hub_height);
     println!("growth {:.6e}, lift {lift:.6e} of {expected:.6e} m", warm.thermal_growth);
@@ -159,7 +156,7 @@ fn a_warm_wheel_grows_by_expansion_times_temperature_times_radius_and_stands_hig
 /// depth, and cold behind it, so that the strength falls evenly over twice the depth.
 #[test]
 fn steel_weakens_by_the_mean_temperature_over_half_the_half_width_and_as_far_to_both_sides() {
-    let config = steel(ContactMethod::Auto);
+    let config = steel();
     let (state, seen) = standing(&config, &Told { per_depth: 2e5, ..Told::default() });
     let depth = 0.5 * seen.contact_half_width;
     let hot = yield_share(config.thermal.reference + 2e5 * depth);

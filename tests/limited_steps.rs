@@ -5,7 +5,7 @@ mod common;
 
 use common::{model, preset};
 use std::sync::Arc;
-use wheelrail::config::{ContactMethod, Tuning};
+use wheelrail::config::Tuning;
 use wheelrail::simulation::validity::Limit;
 use wheelrail::simulation::{Inputs, Model, Outputs, Simulation};
 
@@ -17,7 +17,6 @@ const GRIPS: f64 = 0.1;
 fn railway() -> Arc<Model> {
     let mut config = preset("railway", 10);
     config.initial.velocity = 27.0;
-    config.solver.contact = ContactMethod::Auto;
     model(config)
 }
 

@@ -3,7 +3,7 @@
 mod common;
 use common::*;
 use std::sync::Arc;
-use wheelrail::config::{Config, ContactMethod, ContactShape};
+use wheelrail::config::{Config, ContactShape};
 use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation, Translation};
 
 /// Rows of the ellipse of a configuration, `count` equally wide ones, as a table.
@@ -163,27 +163,16 @@ fn a_real_patch_grows_with_its_load_as_hertz_s_does() {
 }
 
 #[test]
-fn a_real_patch_with_everything_varying_balances_energy_and_agrees_on_series_and_grid() {
-    let results = [ContactMethod::Auto, ContactMethod::Grid].map(|method| {
-        let mut config = preset("railway_s1002_0mm", 10);
-        config.mesh.grid_elements_per_half_width = 20;
-        (config.solver.contact, config.contact.lines) = (method, 5);
-        (config.tuning.tolerance, config.tuning.max_step) = (0.0, 2.5e-4);
-        let model = model(config);
-        let mut inputs = Inputs::rolling(model.config());
-        inputs.drive.moment = -4000.0;
-        run(&model, inputs, (2.5e-4, 80), vary)
-    });
-    let mut worst = [0.0_f64; 3];
-    for (a, b) in results[0].iter().zip(&results[1]) {
-        worst[0] = worst[0].max((a.contact_force_x - b.contact_force_x).abs() / 3e4);
-        worst[1] = worst[1].max((a.contact_force_y / b.contact_force_y - 1.0).abs());
-        worst[2] = worst[2].max((a.contact_pressure_max / b.contact_pressure_max - 1.0).abs());
-    }
-    let residuals = [&results[0], &results[1]].map(|seen| seen[80].energy_residual);
-    println!("series and grid differ by {worst:?}; residuals {residuals:?}");
-    assert!(residuals.iter().all(|residual| residual.abs() < 5e-3));
-    assert!(worst[0] < 5e-3 && worst[1] < 2e-3 && worst[2] < 1e-2);
+fn a_real_patch_with_everything_varying_balances_energy() {
+    let mut config = preset("railway_s1002_0mm", 10);
+    config.contact.lines = 5;
+    (config.tuning.tolerance, config.tuning.max_step) = (0.0, 2.5e-4);
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    inputs.drive.moment = -4000.0;
+    let residual = run(&model, inputs, (2.5e-4, 80), vary)[80].energy_residual;
+    println!("residual {residual:.1e}");
+    assert!(residual.abs() < 5e-3);
 }
 
 #[test]

@@ -2,14 +2,12 @@
 
 mod common;
 use common::*;
-use wheelrail::config::{ContactMethod, Response};
+use wheelrail::config::Response;
 use wheelrail::simulation::Simulation;
 
 #[test]
 fn reduced_and_full_response_agree_within_a_thousandth_of_the_load() {
     let mut config = preset("paper_d", 10);
-    // All finite elements touch on nodes: so do the reduced bodies, lest points and nodes be compared.
-    config.solver.contact = ContactMethod::Grid;
     let reduced = model(config.clone());
     config.solver.response = Response::Full;
     let full = model(config);

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{is_patch, model, shipped};
+use common::{model, shipped};
 use wheelrail::simulation::{Inputs, Outputs, Simulation};
 
 /// Largest difference allowed, relative to the largest value of the output in the run: ten times less than two systems
@@ -27,16 +27,14 @@ fn braked(preset: &str, factor: f64) -> Vec<Vec<(&'static str, Vec<f64>)>> {
     };
     inputs.drive.load = load;
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
-    let (mut found, mut patches) = (vec![seen(simulation.outputs())], 0);
+    let mut found = vec![seen(simulation.outputs())];
     for k in 0..400 {
         let applied = if (200..250).contains(&k) { 2.0 } else { (f64::from(k) / 100.0).min(1.0) };
         inputs.drive.moment = -9000.0 * applied;
         inputs.drive.load = load * (1.0 + 0.1 * libm::sin(0.05 * f64::from(k)));
         simulation.advance(&inputs, 1e-3).unwrap();
-        patches += usize::from(is_patch(&simulation));
         found.push(seen(simulation.outputs()));
     }
-    assert!(patches > 300, "{preset}: {patches} steps on a patch");
     found
 }
 

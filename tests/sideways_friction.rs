@@ -1,5 +1,4 @@
-//! Friction that falls with the slip along and across the elliptical patch on lines side by side, on points that move with
-//! the patch and on fixed nodes: against CONTACT along, and across by symmetry.
+//! Friction that falls with the slip along and across the elliptical patch on lines side by side: against CONTACT along, and across by symmetry.
 
 mod common;
 mod half_spaces;
@@ -34,20 +33,19 @@ fn forces(spaces: &HalfSpaces, [xi, eta]: [f64; 2]) -> [f64; 2] {
 fn creep_forces_along_are_those_of_contact_where_lines_take_lateral_forces() {
     let reference = reference();
     let case = &reference["falling"];
-    for (name, spaces) in
-        [("points", HalfSpaces::sideways(1.0, 7)), ("nodes", HalfSpaces::sideways_on_nodes(1.0, 7, 20))]
-    {
+    for nodes in [10, 20] {
+        let spaces = HalfSpaces::sideways_on_nodes(1.0, 7, nodes);
         let errors: Vec<_> = numbers(&case["xi"])
             .into_iter()
             .zip(numbers(&case["Fx"]))
             .map(|(xi, force)| forces(&spaces, [xi, 0.0])[0] - force)
             .collect();
         common::figure(
-            &format!("sideways.falling.{name}"),
+            &format!("sideways.falling.{nodes}"),
             &[errors.iter().fold(0.0, |most: f64, error| most.max(error.abs()))],
         );
-        println!("{name}: {errors:+.4?}");
-        assert!(errors.iter().all(|error| error.abs() < 0.018), "{name}");
+        println!("{nodes} nodes: {errors:+.4?}");
+        assert!(errors.iter().all(|error| error.abs() < 0.018), "{nodes} nodes");
     }
 }
 

@@ -4,7 +4,7 @@
 mod common;
 use common::*;
 use std::sync::Arc;
-use wheelrail::config::{Config, ContactMethod, Wear};
+use wheelrail::config::{Config, Wear};
 use wheelrail::simulation::{Inputs, Model, Outputs, Simulation};
 
 /// The hot elliptical patch on five lines; with `lateral` creepage.
@@ -15,19 +15,18 @@ fn hot(lateral: bool, change: impl Fn(&mut Config)) -> Arc<Model> {
     model(config)
 }
 
-/// Outputs of a wheel that locks within .1 s and slides on for as long with a lateral creepage, and the steps on nodes.
-fn locked(model: &Arc<Model>, lateral: f64) -> (Outputs, usize) {
+/// Outputs of a wheel that locks within .1 s and slides on for as long with a lateral creepage.
+fn locked(model: &Arc<Model>, lateral: f64) -> Outputs {
     let speed = model.config().initial.velocity;
     let mut inputs = prescribed(model, speed, 1e-3);
     inputs.drive.lateral_velocity = lateral * speed;
     let rolling = inputs.drive.omega;
-    let (mut simulation, mut on_nodes) = (Simulation::new(model.clone(), &inputs).unwrap(), 0);
+    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
     for k in 1..=200 {
         inputs.drive.omega = rolling * (1.0 - f64::from(k) / 100.0).max(0.0);
         simulation.advance(&inputs, 1e-3).unwrap();
-        on_nodes += usize::from(!is_patch(&simulation));
     }
-    (simulation.outputs().clone(), on_nodes)
+    simulation.outputs().clone()
 }
 
 fn close(a: f64, b: f64, share: f64) -> bool {
@@ -36,14 +35,12 @@ fn close(a: f64, b: f64, share: f64) -> bool {
 
 #[test]
 fn a_wheel_that_locks_yields_as_in_one_direction_and_as_its_mirror_image() {
-    let along = locked(&hot(false, |_| {}), 0.0).0;
+    let along = locked(&hot(false, |_| {}), 0.0);
     let [straight, right, left] = [0.0, 0.02, -0.02].map(|lateral| locked(&hot(true, |_| {}), lateral));
     let seen = |it: &Outputs| {
         [it.contact_force_x, it.contact_force_z, it.temperature_rail_max, it.contact_pressure_max, it.plastic_energy]
     };
-    println!("{:?}\n{:?} {}\n{:?}\n{:?}", seen(&along), seen(&straight.0), straight.1, seen(&right.0), seen(&left.0));
-    assert!(straight.1 > 50, "the locked wheel yields on fixed nodes");
-    let (straight, right, left) = (straight.0, right.0, left.0);
+    println!("{:?}\n{:?}\n{:?}\n{:?}", seen(&along), seen(&straight), seen(&right), seen(&left));
     let ratio = |of: fn(&Outputs) -> f64| of(&straight) / of(&along) - 1.0;
     round_off("sideways.locked.force", &[ratio(|it| it.contact_force_x)], 2e-4);
     round_off("sideways.locked.heat [K]", &[straight.temperature_rail_max - along.temperature_rail_max], 0.2);
@@ -74,10 +71,7 @@ fn energy_is_kept_while_everything_varies_on_worn_flattened_and_even_surfaces() 
         ("flattened", |config| config.wheel.profile = "flat(length=0.02)".to_owned()),
     ];
     for (name, change) in cases {
-        let model = hot(true, |config| {
-            config.solver.contact = ContactMethod::Grid;
-            change(config);
-        });
+        let model = hot(true, change);
         let speed = model.config().initial.velocity;
         let seen = run(&model, Inputs::rolling(model.config()), (2e-4, 100), |inputs, t| {
             vary(inputs, t);
@@ -119,7 +113,7 @@ fn a_flat_is_run_over_as_in_one_direction() {
 #[test]
 fn a_surface_that_melts_slides_as_in_one_direction() {
     let melting = |config: &mut Config| (config.material.latent_heat, config.initial.velocity) = (2.7e5, 40.0);
-    let [along, both] = [false, true].map(|lateral| locked(&hot(lateral, melting), 0.0).0);
+    let [along, both] = [false, true].map(|lateral| locked(&hot(lateral, melting), 0.0));
     round_off("sideways.melting.force", &[both.contact_force_x / along.contact_force_x - 1.0], 5e-3);
     round_off("sideways.melting.heat [K]", &[both.temperature_rail_max - along.temperature_rail_max], 5.0);
     println!(

@@ -5,7 +5,7 @@ mod half_spaces;
 
 use common::random::Random;
 use half_spaces::{FRICTION, HalfSpaces, LOAD, Lines, SPEED, formula};
-use wheelrail::contact::{AxisDrive, ContactScratch, Friction, RigidMotion, SolverState, Spin};
+use wheelrail::contact::{ActiveSetScratch, AxisDrive, Friction, RigidMotion, Spin};
 use wheelrail::multistep::TimeDerivative;
 
 /// Motion of the wheel in a step.
@@ -40,27 +40,14 @@ fn driven(guess: f64, force: f64, mass: f64, time: &TimeDerivative) -> RigidMoti
     RigidMotion { drive, guess, gain, offset: -gain * guess, inertia: mass / WIDTH, momentum: 0.0 }
 }
 
-/// Largest shear of a line at its points or nodes over friction.
+/// Largest shear of a line at its nodes over friction.
 fn beyond(lines: &Lines) -> f64 {
     let of = |line: &wheelrail::contact::ContactState| {
         let traction = &line.traction;
-        let state = match &line.solver {
-            SolverState::Series(state) => state,
-            _ => {
-                let (shear, across, p) =
-                    (&traction.shear.value, &traction.lateral_shear.value, &traction.pressure.value);
-                let over = |i: usize| shear[i].hypot(across[i]) - traction.friction.coefficient * p[i];
-                let most = traction.friction.coefficient * traction.pressure_max.max(1.0);
-                return (0..p.len()).map(|i| over(i) / most).fold(0.0, f64::max);
-            }
-        };
-        let (pressure, mu) = (&state.tractions.pressure, line.traction.friction.coefficient);
-        let places: [f64; 12] = std::array::from_fn(|i| {
-            pressure.centre + pressure.half_width * (std::f64::consts::PI * (i + 1) as f64 / 13.0).cos()
-        });
-        let (p, q, r) =
-            (pressure.density(&places), state.tractions.shear(&places), state.tractions.lateral.density(&places));
-        (0..12).map(|i| (q[i].hypot(r[i]) - mu * p[i]) / (mu * pressure.terms[0].max(1.0))).fold(0.0, f64::max)
+        let (shear, across, p) = (&traction.shear.value, &traction.lateral_shear.value, &traction.pressure.value);
+        let over = |i: usize| shear[i].hypot(across[i]) - traction.friction.coefficient * p[i];
+        let most = traction.friction.coefficient * traction.pressure_max.max(1.0);
+        (0..p.len()).map(|i| over(i) / most).fold(0.0, f64::max)
     };
     lines.iter().map(of).fold(0.0, f64::max)
 }
@@ -107,10 +94,10 @@ impl Count {
         motion: [RigidMotion; 3],
         start: &Lines,
     ) -> Option<Lines> {
-        let (mut scratch, spin) = (ContactScratch::default(), Spin { per_travel: spin, per_rotation: 0.0 });
+        let (mut scratch, spin) = (ActiveSetScratch::default(), Spin { per_travel: spin, per_rotation: 0.0 });
         let laws = (time, Friction::constant(FRICTION));
         let found = spaces.solve_with(load, motion, spin, laws, start, &mut scratch);
-        let solved = scratch.linear_laws + scratch.active_set.solved() as usize;
+        let solved = scratch.solved() as usize;
         self.newton += solved;
         self.most = self.most.max(solved);
         self.steps += 1;
@@ -135,12 +122,8 @@ impl Count {
         if what == "held" {
             common::figure("sideways.newton", &[mean, self.most as f64]);
         }
-        if what.contains("nodes") {
-            // A node keeps its state within 1e-9 of the mean force of the nodes.
-            common::round_off("sideways.random.nodes", &[self.least_power.min(0.0), self.beyond], 1e-9);
-        } else {
-            common::round_off("sideways.random", &[self.beyond], 1e-12);
-        }
+        // A node keeps its state within 1e-9 of the mean force of the nodes.
+        common::round_off("sideways.random", &[self.least_power.min(0.0), self.beyond], 1e-9);
         println!("{what}: {self:?}, {mean:.2} a step");
         assert!(self.failures == 0 && self.beyond < 1e-9 && self.least_power > -2e-3);
         assert!(self.most as f64 + OTHER_COST < most * (mean + OTHER_COST));
@@ -170,28 +153,19 @@ fn transients(count: u64, spaces: &HalfSpaces, mass: f64) -> Count {
 /// Directions turn, reverse and vanish, the spin changes its sign, loads change by 30 %, the wheel stands, locks and leaves
 /// the rail, in steps of a hundredth to ten half-lengths of the patch.
 #[test]
-fn ten_thousand_random_steps_are_solved_within_the_cone_and_none_costs_five_times_the_mean() {
-    transients(1000, &HalfSpaces::sideways(1.0, 5), 0.0).check("held", 5.0);
+fn three_thousand_random_steps_are_solved_within_the_cone_and_none_costs_twelve_times_the_mean() {
+    transients(300, &HalfSpaces::sideways_on_nodes(1.0, 5, 10), 0.0).check("held", 12.0);
 }
 
 /// Six to nine linear problems a step.
 #[test]
-fn random_steps_are_solved_on_nodes_with_velocities_held_and_free() {
-    for (aspect, lines, nodes) in [(1.0, 5, 10), (0.5, 7, 10), (1.0, 7, 20), (2.0, 7, 20)] {
-        let spaces = HalfSpaces::sideways_on_nodes(aspect, lines, nodes);
-        transients(100, &spaces, 0.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, held"), 12.0);
-        transients(100, &spaces, 500.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, free"), 12.0);
-    }
-}
-
-#[test]
 fn random_steps_are_solved_on_patches_of_every_shape_with_velocities_held_and_free() {
-    for aspect in [0.5, 1.0, 2.0] {
-        for lines in [7, 9, 13] {
-            let spaces = HalfSpaces::sideways(aspect, lines);
-            transients(20, &spaces, 0.0).check(&format!("{aspect}, {lines} lines, held"), 5.0);
-            transients(20, &spaces, 500.0).check(&format!("{aspect}, {lines} lines, free"), 5.0);
-        }
+    for (aspect, lines, nodes) in
+        [(0.5, 7, 10), (1.0, 7, 20), (2.0, 7, 20), (0.5, 9, 10), (1.0, 9, 10), (2.0, 9, 10), (1.0, 13, 10)]
+    {
+        let spaces = HalfSpaces::sideways_on_nodes(aspect, lines, nodes);
+        transients(20, &spaces, 0.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, held"), 12.0);
+        transients(20, &spaces, 500.0).check(&format!("{aspect}, {lines} lines, {nodes} nodes, free"), 12.0);
     }
 }
 
@@ -199,8 +173,8 @@ fn random_steps_are_solved_on_patches_of_every_shape_with_velocities_held_and_fr
 #[test]
 fn random_steady_states_are_found_from_a_wheel_that_touches() {
     for aspect in [0.5, 1.0, 2.0] {
-        let (spaces, mut seen) = (HalfSpaces::sideways(aspect, 7), Count::default());
-        for seed in 0..200 {
+        let (spaces, mut seen) = (HalfSpaces::sideways_on_nodes(aspect, 7, 10), Count::default());
+        for seed in 0..60 {
             let mut random = Random(seed);
             let load = LOAD * random.logarithmic(0.05, 3.0);
             let mut creepage = || SATURATION * random.logarithmic(0.01, 20.0) * [-1.0, 1.0][random.below(2)];

@@ -4,14 +4,11 @@
 mod common;
 use common::*;
 use std::sync::Arc;
-use wheelrail::config::{Config, ContactMethod};
+use wheelrail::config::Config;
 use wheelrail::simulation::{Drive, Inputs, Lateral, Model, Outputs, Rotation, Simulation, Translation};
 
 /// Share of a balance that an outside observer may miss \[1].
 const CLOSED: f64 = 1e-4;
-
-/// Points that move with the patch, and fixed nodes.
-const METHODS: [ContactMethod; 2] = [ContactMethod::Auto, ContactMethod::Grid];
 
 /// The elliptical patch with lateral creepage, on a number of lines.
 fn sideways(lines: usize, change: impl Fn(&mut Config)) -> Arc<Model> {
@@ -37,17 +34,13 @@ fn start(model: &Arc<Model>, inputs: &Inputs) -> Outputs {
 
 #[test]
 fn without_lateral_motion_and_spin_the_patch_is_the_longitudinal_one() {
-    let pair = |contact| {
-        [true, false]
-            .map(|lateral| sideways(7, |config| (config.contact.lateral, config.solver.contact) = (lateral, contact)))
-    };
-    let models = METHODS.map(pair);
-    for (creepage, [two, one]) in [5e-4, 2e-3, 1e-2].iter().flat_map(|xi| models.iter().map(move |pair| (*xi, pair))) {
-        let [along, both] = [one, two].map(|model| start(model, &moving(model, creepage, 0.0, 0.0)));
+    let models = [false, true].map(|lateral| sideways(7, |config| config.contact.lateral = lateral));
+    for creepage in [5e-4, 2e-3, 1e-2] {
+        let [along, both] = models.each_ref().map(|model| start(model, &moving(model, creepage, 0.0, 0.0)));
         let limit = 0.3 * 1e5;
         let missed = (both.contact_force_x - along.contact_force_x) / limit;
         let aside = [both.contact_force_z / limit, both.contact_moment_y / (limit * along.contact_half_width)];
-        figure(&format!("sideways.none.{:?}", one.config().solver.contact), &[missed]);
+        figure("sideways.none", &[missed]);
         println!("creepage {creepage}: force {missed:+.1e}, lateral force and moment {aside:?}");
         assert!(missed.abs() < 2e-3 && aside.iter().all(|share| share.abs() < 1e-6));
     }
@@ -55,11 +48,7 @@ fn without_lateral_motion_and_spin_the_patch_is_the_longitudinal_one() {
 
 #[test]
 fn mirror_images_of_the_motion_have_mirror_images_of_the_forces() {
-    METHODS.into_iter().for_each(mirror);
-}
-
-fn mirror(contact: ContactMethod) {
-    let model = sideways(5, |config| config.solver.contact = contact);
+    let model = sideways(5, |_| {});
     let run = |sign: f64| {
         let inputs = moving(&model, 1e-3, sign * 5e-4, sign * 0.2);
         let seen = run(&model, inputs, (1e-4, 40), |inputs, t| {
@@ -191,13 +180,8 @@ fn observed(
 
 #[test]
 fn an_outside_observer_balances_energy_and_lateral_momentum() {
-    METHODS.into_iter().for_each(balance);
-}
-
-fn balance(contact: ContactMethod) {
-    let rigid = sideways(5, |config| (config.wheel.lateral_mass, config.solver.contact) = (500.0, contact));
+    let rigid = sideways(5, |config| config.wheel.lateral_mass = 500.0);
     let yielding = sideways(5, |config| {
-        config.solver.contact = contact;
         config.wheel.lateral_mass = 500.0;
         (config.wheel.lateral_stiffness, config.wheel.lateral_damping) = (2e8, 2e4);
         (config.rail.lateral_stiffness, config.rail.lateral_damping, config.rail.lateral_mass) = (8e7, 5e4, 60.0);
@@ -215,12 +199,7 @@ fn balance(contact: ContactMethod) {
 
 #[test]
 fn a_state_gone_back_to_is_the_same_to_the_bit() {
-    METHODS.into_iter().for_each(go_back);
-}
-
-fn go_back(contact: ContactMethod) {
     let model = sideways(5, |config| {
-        config.solver.contact = contact;
         (config.wheel.lateral_stiffness, config.wheel.lateral_damping) = (2e8, 2e4);
     });
     let mut inputs = moving(&model, 1e-3, 1e-3, 0.1);
@@ -240,11 +219,7 @@ fn go_back(contact: ContactMethod) {
 /// Creep coefficients of the present state: derivatives of forces and moment by lateral velocity and spin.
 #[test]
 fn derivatives_of_the_present_state_are_those_of_two_states_beside_it() {
-    METHODS.into_iter().for_each(differentiate);
-}
-
-fn differentiate(contact: ContactMethod) {
-    let model = sideways(5, |config| config.solver.contact = contact);
+    let model = sideways(5, |_| {});
     let inputs = moving(&model, 2e-4, 2e-4, 0.02);
     let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
     type Input = fn(&mut Drive) -> &mut f64;

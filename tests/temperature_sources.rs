@@ -6,7 +6,6 @@
 mod common;
 
 use std::f64::consts::TAU;
-use wheelrail::config::ContactMethod;
 use wheelrail::simulation::{Drive, Inputs, Rotation, Simulation, Translation};
 
 /// Excess over the data that counts as none \[K], and the same relative to the span of the data \[1].
@@ -22,7 +21,6 @@ struct Row {
     wheel: f64,
     conductance: f64,
     elements: usize,
-    contact: ContactMethod,
     velocity: f64,
     step: f64,
     /// Changes what acts after the time \[s] and the way \[m].
@@ -38,7 +36,6 @@ fn row(name: &str) -> Row {
         wheel: 0.0,
         conductance: 0.0,
         elements: 10,
-        contact: ContactMethod::Grid,
         velocity: 15.0,
         step: 1e-3,
         drive: |_, _, _| {},
@@ -89,10 +86,6 @@ fn rows() -> Vec<Row> {
             r.drive = |d, _, _| d.load *= 0.9;
         });
     }
-    add("series, load at 5 Hz", &|r| {
-        r.contact = ContactMethod::Auto;
-        r.drive = |d, t, _| d.load *= 1.0 + 0.3 * (TAU * 5.0 * t).sin();
-    });
     add("reversed, load 0.9", &|r| {
         r.velocity = -15.0;
         r.drive = |d, _, _| d.load *= 0.9;
@@ -131,7 +124,6 @@ fn rows() -> Vec<Row> {
 fn excess(row: &Row, duration: f64) -> [f64; 2] {
     let mut config = common::preset("railway", row.elements);
     (config.solver.modes_wheel, config.solver.modes_rail) = (12, 20);
-    config.solver.contact = row.contact;
     (config.initial.velocity, config.thermal.wheel_excess) = (row.velocity, row.wheel);
     config.tuning.tolerance = 0.0;
     if row.conductance > 0.0 {

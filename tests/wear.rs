@@ -6,7 +6,7 @@ mod common;
 use common::{model, prescribed, preset};
 use std::path::Path;
 use std::sync::Arc;
-use wheelrail::config::{Config, ContactMethod, Wear};
+use wheelrail::config::{Config, Wear};
 use wheelrail::fmi::instance::{Instance, simulation};
 use wheelrail::fmi::log::{CallError, Log};
 use wheelrail::fmi::v2::variables::variables;
@@ -376,6 +376,5 @@ fn wear_that_makes_no_sense_is_refused_by_name() {
         |c| c.damage.wear_catastrophic_from = 1e6,
         &["damage.wear_catastrophic_from = ", "damage.wear_severe_from"],
     );
-    refused(|c| c.solver.contact = ContactMethod::Patch, &["damage.wear = 2", "solver.contact = patch"]);
     refused(|c| c.damage.wear_mild = -1.0, &["damage.wear_mild = -1"]);
 }

@@ -29,7 +29,6 @@ PERIOD = 0.04  # of a moment that varies, s
 MOMENT = -7000.0  # about half of the adhesion limit, N m
 COLD = {"thermal.enabled": "false"}
 ELLIPSE = {"preset": "railway_ellipse"}
-NODES = {"solver.contact": "grid"}
 SIDEWAYS = {"contact.lateral": "true"}
 # Name, parameters, and inputs by time: a line of a scenario each.
 HELD = [f"{time},{MOMENT},0" for time in (0, 1)]
@@ -38,16 +37,13 @@ LOCKING = ["0,0,7000", "0.02,0,7000", "0.02,0,40000", "1,0,40000"]
 CASES = {
     "line, held": ({}, HELD),
     "line, varying": ({}, VARYING),
+    "line without heat, held": (COLD, HELD),
     "line without heat, varying": (COLD, VARYING),
     "line, brake that locks": ({}, LOCKING),
     "seven lines, varying": (ELLIPSE, VARYING),
+    "seven lines without heat, held": (ELLIPSE | COLD, HELD),
     "seven lines without heat, varying": (ELLIPSE | COLD, VARYING),
-    "line on nodes without heat, held": (COLD | NODES, HELD),
-    "line on nodes without heat, varying": (COLD | NODES, VARYING),
-    "seven lines on nodes without heat, held": (ELLIPSE | COLD | NODES, HELD),
-    "seven lines on nodes without heat, varying": (ELLIPSE | COLD | NODES, VARYING),
     "seven lines sideways without heat, held": (ELLIPSE | COLD | SIDEWAYS, HELD),
-    "seven lines sideways on nodes without heat, held": (ELLIPSE | COLD | SIDEWAYS | NODES, HELD),
 }
 
 

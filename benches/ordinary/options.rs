@@ -59,7 +59,7 @@ impl Options {
 }
 
 fn pair(text: &str) -> Result<(String, String), String> {
-    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as solver.contact=auto")?;
+    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as contact.lines=5")?;
     Ok((name.trim().to_owned(), value.trim().to_owned()))
 }
 

@@ -48,16 +48,6 @@ choice! {
 }
 
 choice! {
-    /// Kind of nodes on which the contact is solved: `patch` are the points of `contact::series`, which move with a
-    /// single smooth patch, `grid` the nodes of `contact::active_set`; `contact::choice` goes from one to the other.
-    pub enum ContactMethod named "ContactMethod", "How contact forces are found" {
-        Auto = "auto", "on the patch while it is single and smooth, otherwise on the grid";
-        Grid = "grid", "on a grid of paired surface nodes";
-        Patch = "patch", "on a single smooth patch where other parameters allow it; a step without one fails";
-    }
-}
-
-choice! {
     /// Shape of the patch in which wheel and rail touch.
     pub enum ContactShape named "ContactShape", "Shape of the contact patch" {
         Line = "line", "a line of constant width: model.contact_width";
@@ -99,8 +89,6 @@ questions! {
     Wear: is_on { TGamma => true, Off => false }
     /// Bodies are reduced to vibration modes, which a stored basis holds.
     Response: is_reduced { Reduced => true, Full => false }
-    /// Steps without a single smooth patch fail, instead of being solved on the grid.
-    ContactMethod: requires_patch { Patch => true, Auto => false, Grid => false }
     /// The patch is as wide as the bodies, and has one line.
     ContactShape: is_line { Line => true, Ellipse => false, Rows => false }
     /// The patch is that of `contact.rows`.

@@ -220,13 +220,6 @@ fn internal_step(config: &Config) -> Dependent {
     Dependent::of(config, "solver.max_step", range, "0 as the choice by wheel.profile and rail.profile".to_owned())
 }
 
-/// Worn surfaces are no smooth patch.
-fn wear_contact(config: &Config) -> Dependent {
-    let high = if config.solver.contact.requires_patch() { 1.0 } else { 2.0 };
-    let others = "solver.contact = patch, on smooth surfaces only (1: off, 2: t_gamma)".to_owned();
-    Dependent::of(config, "damage.wear", [1.0, high], others)
-}
-
 /// Curvatures across the direction of rolling with which wheel and rail touch in an ellipse that is no line.
 fn ellipse(config: &Config) -> Dependent {
     Dependent {
@@ -266,7 +259,6 @@ pub fn ranges(config: &Config) -> Vec<Dependent> {
         simple("material.liquidus", at_least(config.material.solidus + 10.0), "material.solidus"),
         // Catastrophic wear begins beyond severe wear.
         simple("damage.wear_catastrophic_from", at_least(config.damage.wear_severe_from), "damage.wear_severe_from"),
-        wear_contact(config),
         internal_step(config),
         velocity,
         creepage,

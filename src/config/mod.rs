@@ -16,9 +16,7 @@ pub mod table;
 pub mod units;
 pub mod value;
 
-pub use choices::{
-    ConductanceLaw, ContactMethod, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear,
-};
+pub use choices::{ConductanceLaw, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear};
 pub use dependent::ConfigError;
 pub use nominal::NominalPatch;
 pub use patch_rows::{PatchRows, RowsError};

@@ -32,6 +32,13 @@ pub const RETIRED: &[Retired] = &[
         last: "0.1.1",
         instead: "time steps are always second-order backward differences without a weight; remove it",
     },
+    Retired {
+        number: 1189,
+        name: "solver.contact",
+        since: "0.17.0",
+        last: "0.16.4",
+        instead: "contact forces are always found on contact nodes (mesh.grid_elements_per_half_width); remove it",
+    },
 ];
 
 /// The refusal as users read it.

@@ -6,7 +6,7 @@
 //! they come first in the reference. A row that is taken out moves to [`super::retired`].
 
 use super::choices::{
-    ConductanceLaw, ContactMethod, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear,
+    ConductanceLaw, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear,
 };
 use super::row::parameters;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -227,9 +227,9 @@ parameters! {
         mesh: MeshParameters fixed {
             1080 basic elements_per_half_width: usize = 10, from 4 to 80,
                 "Elements of bodies and heat per Hertzian half-width at model.nominal_load";
-            1193 expert grid_elements_per_half_width: usize = 20, from 4 to 80,
-                "Contact nodes per Hertzian half-width, where the contact is solved on a grid: at least as many, since the \
-                 grid divides every element of the surface evenly, and one per element where there are more elements";
+            1193 expert grid_elements_per_half_width: usize = 10, from 4 to 80,
+                "Contact nodes per Hertzian half-width: at least as many, since nodes divide every element of the surface \
+                 evenly, and one per element where there are more elements";
             1081 expert reach: f64 = 0.0, in "m" as "mm", from 0.0 to 1.0,
                 "Distance from the contact point up to which contact is looked for at least where a patch needs it, as far as wheel \
                  and rail have room; 0: about six half-widths at model.nominal_load, and the edges of every flat in wheel.profile";
@@ -239,7 +239,6 @@ parameters! {
             1090 expert response: Response = Response::Reduced, "How the bodies answer contact tractions";
             1091 expert modes_wheel: usize = 80, from 1 to 200, "Vibration modes kept for the wheel (reduced response)";
             1092 expert modes_rail: usize = 40, from 1 to 200, "Vibration modes kept for the rail (reduced response)";
-            1189 basic contact: ContactMethod = ContactMethod::Auto, "How contact forces are found";
         }
         /// Stationary rolling state from which the run starts.
         initial: Initial fixed {

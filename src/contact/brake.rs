@@ -6,7 +6,7 @@
 //! it; one whose force no longer opposes the motion holds, so that a reversal passes through rest.
 
 use crate::axes::PerAxis;
-use crate::contact::problem::{AxisDrive, RigidMotion};
+use crate::contact::problem::RigidMotion;
 
 /// State of the brake of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,18 +36,6 @@ pub(super) fn founding(rigid: &PerAxis<RigidMotion>) -> PerAxis<BrakeState> {
         speed if speed > 0.0 => BrakeState::Backward,
         speed if speed < 0.0 => BrakeState::Forward,
         _ => BrakeState::Holding,
-    })
-}
-
-/// The motions with brakes in given states: held at rest, or free under the load and the force of the brake.
-pub(super) fn driven(rigid: &PerAxis<RigidMotion>, states: PerAxis<BrakeState>) -> PerAxis<RigidMotion> {
-    PerAxis::from_fn(|axis| {
-        let AxisDrive::Braked { load, limit } = rigid[axis].drive else { return rigid[axis] };
-        let drive = match states[axis] {
-            BrakeState::Holding => AxisDrive::Prescribed { target: 0.0 },
-            slips => AxisDrive::Free { load: load + slips.direction() * limit },
-        };
-        RigidMotion { drive, ..rigid[axis] }
     })
 }
 

@@ -23,19 +23,7 @@ pub enum ContactError {
         /// Contact force [N/m].
         load: f64,
     },
-    /// The solver on a single patch does not describe this contact.
-    #[error("the contact is not a single smooth patch: {reason}")]
-    Unsuited {
-        /// Property of the contact that it cannot describe.
-        reason: &'static str,
-    },
-    /// The solver takes one contact line.
-    #[error("this contact solver takes one contact line, not {lines}")]
-    SingleLine {
-        /// Lines of the problem.
-        lines: usize,
-    },
-    /// The start state belongs to another solver or another mesh.
-    #[error("the contact state belongs to another solver")]
+    /// The start state belongs to another mesh.
+    #[error("the contact state belongs to another mesh")]
     ForeignState,
 }

@@ -13,11 +13,9 @@ use crate::linalg::POINTS;
 use crate::patch::tiles::{Tile, TileInfluence};
 use std::f64::consts::{LN_2, PI};
 
-/// Length beyond the ends of a line, over its half-length, on which the past on points fades out \[1].
-const FADING: f64 = 0.5;
-
 /// Offset of a strip from the middle over its width beyond which it has a mirror image \[1].
 const LEAST_OFFSET: f64 = 1e-9;
+
 /// Displacement and strain of one line by the forces of all lines of its patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Field {
@@ -163,17 +161,6 @@ pub fn add<const D: usize>(by_moments: &[[f64; D]; D], moments: &[f64; D], sum: 
     }
 }
 
-/// Values of a polynomial at places x, whose unit is `length` \[m].
-pub fn values<const N: usize>(polynomial: &ByPowers, x: &[f64; N], length: f64) -> [f64; N] {
-    let (mut sums, scale) = ([0.0; N], 1.0 / length);
-    for c in polynomial.iter().rev() {
-        for i in 0..N {
-            sums[i] = sums[i] * (x[i] * scale) + c;
-        }
-    }
-    sums
-}
-
 /// Powers of the place t of a line, and beyond its ends the displacements there of a plane body by forces on the line that
 /// cause the powers on it; `depth` is `ln(2L/a)` of the reach L of the plane body and the half-length a.
 ///
@@ -192,14 +179,6 @@ pub fn powers(t: f64, depth: f64) -> ByPowers {
     [even, odd, 0.5 * (even + square), 0.25 * odd * (3.0 + square), fourth]
 }
 
-/// Powers of the place t, of which those at the ends of the line fade out beyond it without a kink: displacements of
-/// earlier times on points are carried on by them.
-pub fn faded(t: f64) -> ByPowers {
-    let beyond = ((t.abs() - 1.0) / FADING).clamp(0.0, 1.0);
-    let (share, t) = (1.0 - beyond * beyond * (3.0 - 2.0 * beyond), t.clamp(-1.0, 1.0));
-    powers(t, 1.0).map(|power| share * power)
-}
-
 /// Value of a polynomial, given the powers of the place.
 pub fn at(polynomial: &ByPowers, powers: &ByPowers) -> f64 {
     polynomial.iter().zip(powers).map(|(c, power)| c * power).sum()
@@ -216,13 +195,6 @@ impl Between {
             }
         }
         slips
-    }
-}
-
-impl Field {
-    /// Slip [m/s] as a polynomial, given its changes with displacement and strain, see [`slip_of_field`].
-    pub fn slip(&self, [by_displacement, by_strain]: [f64; 2]) -> ByPowers {
-        std::array::from_fn(|k| by_displacement * self.displacement[k] + by_strain * self.strain[k])
     }
 }
 

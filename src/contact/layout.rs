@@ -192,12 +192,12 @@ impl PatchLayout {
 
     /// On nodes that end at the distance `end` \[m] from the middle: contact may be that long, whatever the layout. Lines
     /// reach so far that none is pushed by its own tangential forces.
-    pub fn on_nodes(self, end: f64) -> Self {
+    pub fn reaching(self, end: f64) -> Self {
         Self { least_reach: Some(REACH * end), ..self }
     }
 
-    /// With nodes of a grid that suits the half-length `unit` \[m], as much larger or smaller as lines that move with the patch are
-    /// longer or shorter, but no smaller than by the factor `least` under the load of the description.
+    /// With nodes of a grid that suits the half-length `unit` \[m], as much larger or smaller as lines are longer or shorter, but
+    /// no smaller than by the factor `least` under the load of the description.
     pub fn scaling(self, unit: f64, least: f64) -> Self {
         Self { unit, least, ..self }
     }

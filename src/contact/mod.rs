@@ -1,17 +1,13 @@
 //! Frictional contact of two deformable bodies: unilateral contact and exact Coulomb friction.
 //!
 //! The bodies enter only through the answer of their surfaces ([`ContactProblem`]), so this room knows neither finite
-//! elements nor how the rolling motion is advanced. What anyone else learns of a solved contact is its [`Traction`];
-//! how it was found is the business of a [`ContactSolver`]: [`series`] takes the tractions of single smooth patches as
-//! series, [`active_set`] solves any contact on the paired surface nodes of a [`mod@line`], and [`choice`] decides
-//! between them. Everything is per metre of width; [`crate::patch`] has the closed forms of a patch of finite width.
-//! Forces are those on the *wheel*: `F_x > 0` drives it forward, `F_y > 0` (pressure) lifts it; the rail receives the
-//! opposite.
+//! elements nor how the rolling motion is advanced. [`active_set`] solves a contact on the paired surface nodes of a
+//! [`mod@line`]; what anyone else learns of a solved contact is its [`Traction`]. Everything is per metre of width;
+//! [`crate::patch`] has the closed forms of a patch of finite width. Forces are those on the *wheel*: `F_x > 0` drives it
+//! forward, `F_y > 0` (pressure) lifts it; the rail receives the opposite.
 
 pub mod active_set;
 mod brake;
-pub mod choice;
-mod cone;
 pub mod error;
 pub mod film;
 mod flexibility;
@@ -22,10 +18,10 @@ pub mod limits;
 pub mod line;
 pub mod problem;
 mod projection;
-pub mod series;
-pub mod solver;
+mod state;
 pub mod traction;
 
+pub use active_set::{ActiveSetScratch, ActiveSetSolver};
 pub use error::ContactError;
 pub use flexibility::{HalfSpace, InPatch, PatchFlexibility};
 pub use friction::{Friction, FrictionLaw, Heating, SlipDependence};
@@ -33,8 +29,7 @@ pub use kernel::{LineKernel, Logarithm};
 pub use layout::{LineLayout, NodeSize, PatchLayout, PatchMaterial};
 pub use limits::SteelLimits;
 pub use problem::{
-    AxisDrive, Begin, ContactProblem, Influence, LayoutsOfLoad, LineProblem, OneLine, RetardedSurface, RigidMotion,
-    Spin, SurfaceResponse,
+    AxisDrive, Begin, ContactProblem, Influence, LineProblem, RetardedSurface, RigidMotion, Spin, SurfaceResponse,
 };
-pub use solver::{ContactScratch, ContactSolver, ContactState, SolverState};
+pub use state::ContactState;
 pub use traction::{SolvedFriction, Traction, Yielding};

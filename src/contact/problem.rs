@@ -4,11 +4,10 @@
 //! and feel each other through the bodies: a line is displaced by the forces of all ([`Influence`]), and by its own as
 //! its [`LineKernel`] says. Derivation: `docs/theory/lines.md`.
 
-use super::error::ContactError;
 use super::flexibility::InPatch;
 use super::friction::Friction;
 use super::kernel::LineKernel;
-use super::layout::{LineLayout, NodeSize};
+use super::layout::NodeSize;
 use super::limits::SteelLimits;
 use crate::axes::{Axis, PerAxis};
 use crate::multistep::TimeDerivative;
@@ -166,7 +165,7 @@ pub struct LineProblem<'a> {
     pub share: f64,
     /// Lateral position about the centre of load \[m].
     pub position: f64,
-    /// Size of its nodes, if it is solved on nodes; `None`: that of the grid.
+    /// Size of its nodes; `None`: that of the grid.
     pub size: Option<NodeSize>,
     /// Flexibility that it has for itself.
     pub kernel: LineKernel,
@@ -208,30 +207,6 @@ impl LineProblem<'_> {
         self.patch.is_some_and(|patch| patch.flexibility.is_sideways())
     }
 
-    /// Slip of the round wheel per unit of a rigid motion \[1, m].
-    pub fn sliding(&self, axis: Axis) -> f64 {
-        match axis {
-            Axis::Travel => 1.0,
-            Axis::Height | Axis::Lateral => 0.0,
-            Axis::Rotation => -self.radius(),
-        }
-    }
-
-    /// This line in another layout, of which the gap is the change from the present one.
-    pub fn laid_out(&self, layout: &LineLayout) -> Self {
-        let LineLayout { share, position, size, kernel, gap, .. } = *layout;
-        let placement = Placement { elevation: self.placement.elevation - gap, ..self.placement };
-        Self {
-            share,
-            position,
-            size,
-            kernel,
-            patch: self.patch.map(|patch| layout.in_patch(patch.flexibility, patch.line)),
-            placement,
-            ..*self
-        }
-    }
-
     /// Rolling radius of the wheel \[m], thermal growth included.
     pub fn radius(&self) -> f64 {
         self.surfaces.radius + self.placement.growth
@@ -243,17 +218,6 @@ impl LineProblem<'_> {
     pub fn grown(&self) -> f64 {
         self.radius() / self.surfaces.radius
     }
-}
-
-/// One line of a contact problem, with the rigid motions of the wheel.
-#[derive(Clone, Copy)]
-pub struct OneLine<'a> {
-    /// The line.
-    pub line: &'a LineProblem<'a>,
-    /// Rigid motions of the wheel.
-    pub rigid: &'a PerAxis<RigidMotion>,
-    /// Spin of the wheel.
-    pub spin: Spin,
 }
 
 /// Spin: the wheel turns about the vertical with the velocity `σ = per_travel · V + per_rotation · Ω` [rad/s], which adds
@@ -287,18 +251,6 @@ impl ContactProblem<'_> {
     pub fn is_sideways(&self) -> bool {
         self.lines.iter().any(LineProblem::is_sideways)
     }
-
-    /// The problem for a solver that takes a single line.
-    ///
-    /// # Errors
-    ///
-    /// [`ContactError::SingleLine`] if there are several.
-    pub fn single(&self) -> Result<OneLine<'_>, ContactError> {
-        match self.lines.as_slice() {
-            [line] => Ok(OneLine { line, rigid: &self.rigid, spin: self.spin }),
-            lines => Err(ContactError::SingleLine { lines: lines.len() }),
-        }
-    }
 }
 
 /// Contact lines under a wheel whose rigid motions are sought or prescribed.
@@ -314,9 +266,7 @@ pub struct ContactProblem<'a> {
     /// Largest change of the weights at the contact edges over the search that counts as none, and half of the least that
     /// counts in full \[1].
     pub edge_tolerance: f64,
-    /// Layouts that follow the load, by which a solver may replace that at hand; `None`: there is only this one.
-    pub layouts: Option<&'a dyn LayoutsOfLoad>,
-    /// Where a solver begins that searches for the states of nodes.
+    /// States of nodes with which the search begins.
     pub begin: Begin,
 }
 
@@ -327,14 +277,4 @@ pub enum Begin {
     Before(f64),
     /// Those of the results at hand, which have been found for the same step in another layout.
     Found,
-}
-
-/// Layouts of lines that follow the load of all.
-pub trait LayoutsOfLoad {
-    /// Begins a search with the layout of the problem.
-    fn begin(&self);
-
-    /// Layout under a load of all lines [N/m], which the search goes on with; its gaps are the changes from those of
-    /// the problem. `None`: that at hand is the one, or too far from it.
-    fn under(&self, load: f64) -> Option<Vec<LineLayout>>;
 }

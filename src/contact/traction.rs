@@ -1,4 +1,4 @@
-//! Result of a solved contact for everyone else: forces, patches and profiles, whatever solver found them.
+//! Result of a solved contact for everyone else: forces, patches and profiles, read off its nodes.
 
 use crate::axes::PerAxis;
 use crate::linalg::POINTS;
@@ -26,11 +26,10 @@ pub struct Traction {
     pub rigid: PerAxis<f64>,
     /// Generalised forces on the wheel: force x, force y [N/m], forward moment about the hub centre \[N], force z [N/m].
     pub resultant: PerAxis<f64>,
-    /// Edges of the contact patches, x ascending \[m]; below the resolution of the solver they follow from the
-    /// pressures beside them.
+    /// Edges of the contact patches, x ascending \[m]; between nodes they follow from the pressures beside them.
     pub edges: Vec<Interval>,
     /// Edges by the outermost pressures at each end alone, as if the other end were far: between these the bodies conduct
-    /// heat to each other. On fixed nodes edges of short patches lie farther inside, and what is hot on a few nodes would
+    /// heat to each other. Edges of short patches lie farther inside, and what is hot on a few nodes would
     /// get hotter yet.
     pub conducting: Vec<Interval>,
     /// The contact patches, x ascending \[m]: the stretches over which the profiles below are not zero. Each holds
@@ -177,17 +176,6 @@ impl Traction {
     /// unit of the function]; it is asked from low x to high.
     pub fn load_times(&self, mut of: impl FnMut(f64) -> f64) -> f64 {
         self.pressure.segments().map(|(x, p)| 0.5 * (x[1] - x[0]) * (p[0] + p[1]) * of(0.5 * (x[0] + x[1]))).sum()
-    }
-
-    /// Work of the pull of hot layers on the way of the ports since the traction `before`, with the mean of both pulls [J/m].
-    pub fn work_of_pulls_since(&self, before: &Self) -> f64 {
-        let of_body = |body: usize| {
-            let (now, then, sign) = (&self.surface[body], &before.surface[body], [1.0, -1.0][body]);
-            let pull = |traction: &Self, port: usize| traction.loads[body][port] - sign * traction.port_forces[port];
-            let mean = |port: usize| 0.5 * (pull(self, port) + pull(before, port));
-            (0..now.len()).map(|port| mean(port) * (now[port] - then[port])).sum::<f64>()
-        };
-        of_body(0) + of_body(1)
     }
 
     /// Work of the pressure on the whole overlap [J/m].

@@ -17,7 +17,7 @@ macro_rules! files {
 }
 
 /// The pages, in the order in which they are read.
-const PAGES: [(&str, &str); 30] = files![include_str:
+const PAGES: [(&str, &str); 29] = files![include_str:
     "profiles.md",
     "patches.md",
     "coupling.md",
@@ -33,7 +33,6 @@ const PAGES: [(&str, &str); 30] = files![include_str:
     "theory/contact.md",
     "theory/edge-consistent-rows.md",
     "theory/kernel-correction.md",
-    "theory/patch-contact.md",
     "theory/elastic-layer.md",
     "theory/lever-arms.md",
     "theory/lines.md",

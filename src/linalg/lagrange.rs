@@ -57,21 +57,6 @@ impl Lagrange {
         Polynomial { reach: self.reach, coefficients: std::array::from_fn(power) }
     }
 
-    /// Moments with all polynomials from those with the powers of `x/reach`.
-    pub fn moments(&self, of_powers: &[f64; POINTS]) -> [f64; POINTS] {
-        self.coefficients.each_ref().map(|c| c.iter().zip(of_powers).map(|(c, moment)| c * moment).sum())
-    }
-
-    /// Moments with all polynomials from those with the powers of `x/length`.
-    pub fn moments_over(&self, of_powers: &[f64; POINTS], length: f64) -> [f64; POINTS] {
-        let (ratio, mut scale) = (length / self.reach, 1.0);
-        self.moments(&of_powers.map(|moment| {
-            let scaled = scale * moment;
-            scale *= ratio;
-            scaled
-        }))
-    }
-
     /// Matrix that turns values at the positions `x` into those at the points: least squares.
     pub fn projection(&self, x: &[f64]) -> Result<DMatrix<f64>, LinalgError> {
         let design = DMatrix::from_fn(x.len(), POINTS, |i, k| self.values(x[i])[k]);
@@ -92,28 +77,6 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
-    /// Its coefficients by powers of `x/length`.
-    pub fn by_powers(&self, length: f64) -> [f64; POINTS] {
-        let (ratio, mut scale) = (length / self.reach, 1.0);
-        self.coefficients.map(|c| {
-            let scaled = c * scale;
-            scale *= ratio;
-            scaled
-        })
-    }
-
-    /// Its derivative.
-    pub fn derivative(&self) -> Self {
-        let of_power = |k: usize| if k < POINTS { k as f64 * self.coefficients[k] / self.reach } else { 0.0 };
-        Self { reach: self.reach, coefficients: std::array::from_fn(|k| of_power(k + 1)) }
-    }
-
-    /// Its value at x.
-    pub fn at(&self, x: f64) -> f64 {
-        let s = x / self.reach;
-        self.coefficients.iter().rev().fold(0.0, |sum, c| sum * s + c)
-    }
-
     /// Its derivative at x.
     pub fn slope(&self, x: f64) -> f64 {
         let s = x / self.reach;
@@ -137,7 +100,7 @@ mod tests {
             let dot = |weights: [f64; POINTS]| weights.iter().zip(&nodes).map(|(w, v)| w * v).sum::<f64>();
             let slope = -1.0 + x - 0.3 * x * x + 0.12 * x.powi(3);
             assert!((dot(basis.values(x)) - quartic(x)).abs() < 1e-12);
-            assert!((polynomial.at(x) - quartic(x)).abs() < 1e-12 && (polynomial.slope(x) - slope).abs() < 1e-12);
+            assert!((polynomial.slope(x) - slope).abs() < 1e-12);
             assert!((basis.values(x).iter().sum::<f64>() - 1.0).abs() < 1e-13);
         }
     }

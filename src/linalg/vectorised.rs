@@ -80,46 +80,6 @@ pub fn add_multiples<S: pulp::Simd, const W: usize, const N: usize>(
     }
 }
 
-/// Terms of the series of [`logarithms`], from the last one on: `1/21, 1/19, … 1/3`.
-const LOGARITHM: [f64; 10] = {
-    let (mut terms, mut k) = ([0.0; 10], 0);
-    while k < 10 {
-        terms[k] = 1.0 / (21 - 2 * k) as f64;
-        k += 1;
-    }
-    terms
-};
-/// `ln 2` in two parts, of which the first has so few digits that its products with exponents are exact.
-const LN_2_PARTS: [f64; 2] = [f64::from_bits(0x3fe6_2e42_fee0_0000), 1.908_214_929_270_587_7e-10];
-/// Number of which the lowest bits hold a whole one, `2⁵²`, and that number for exponents as they are stored.
-const WHOLE: u64 = 0x4330_0000_0000_0000;
-const BIAS: f64 = 4_503_599_627_370_496.0 + 1023.0;
-/// Bits that distinguish 1 from `√½`.
-const ROOT_HALF: u64 = 0x3ff0_0000_0000_0000 - 0x3fe6_a09e_667f_3bcd;
-
-/// Natural logarithms of positive numbers that are neither infinite nor below `2⁻¹⁰²²`; of others something finite or not.
-///
-/// `x = 2^k m` with `√½ ≤ m < √2`, and `ln m = 2 artanh s` with `s = (m − 1)/(m + 1)`, by powers of `s² < 0.0295`.
-#[inline(always)]
-pub fn logarithms<const N: usize>(x: &[f64; N]) -> [f64; N] {
-    let mut all = [0.0; N];
-    for i in 0..N {
-        let shifted = x[i].to_bits().wrapping_add(ROOT_HALF);
-        let k = f64::from_bits(WHOLE | (shifted >> 52)) - BIAS;
-        let m = f64::from_bits((shifted & 0x000f_ffff_ffff_ffff) + 0x3fe6_a09e_667f_3bcd);
-        let f = m - 1.0;
-        let s = f / (2.0 + f);
-        let (z, mut sum) = (s * s, 0.0);
-        for term in LOGARITHM {
-            sum = (sum + term) * z;
-        }
-        // `2 s = f − s f`, so that f, which is exact, comes last.
-        let rest = s * (2.0 * sum - f) + k * LN_2_PARTS[1];
-        all[i] = k * LN_2_PARTS[0] + (f + rest);
-    }
-    all
-}
-
 vectorised! {
     /// Scalar product.
     fn dot<'a, S>(simd, a: &'a [f64], b: &'a [f64]) -> f64 {
@@ -321,19 +281,6 @@ mod tests {
         for length in [0, 1, 4, 15, 16, 33] {
             let [a, b]: [Vec<f64>; 2] = [2.0, 3.0].map(|step| (0..length).map(|i| step * f64::from(i) - 5.0).collect());
             assert_eq!(dot(&a, &b), a.iter().zip(&b).map(|(a, b)| a * b).sum::<f64>());
-        }
-    }
-
-    #[test]
-    fn logarithms_are_those_of_the_library_to_the_last_digits() {
-        let mut x = 1e-300_f64;
-        while x < 1e300 {
-            let numbers = [x, 1.0 + x.min(1e16) * 1e-16, 1.0 / (1.0 + x), 2.0_f64.sqrt() + 1e-15];
-            for (value, number) in logarithms(&numbers).into_iter().zip(numbers) {
-                let exact = libm::log(number);
-                assert!((value - exact).abs() <= 4e-16 * exact.abs(), "{number:e}: {value:e} {exact:e}");
-            }
-            x *= 1.000_9;
         }
     }
 }

@@ -275,8 +275,8 @@ mod tests {
         assert!(basis.fits(&other) && !basis.fits(&config));
         let pair = bodies(&other, Some(basis), &mut |_, _| {}).unwrap();
         assert_eq!((pair.wheel.state_len(), pair.rail.state_len()), (4, 5));
-        // 34 elements, wings included, with five cells of the contact grid each.
-        assert_eq!((pair.surface_x.len(), pair.candidates), (171, 3..168));
+        // 34 elements, wings included, with three cells between contact nodes each.
+        assert_eq!((pair.surface_x.len(), pair.candidates), (103, 3..100));
     }
 
     #[test]

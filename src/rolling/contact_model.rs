@@ -13,21 +13,20 @@ use crate::axes::{Axis, PerAxis};
 use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
-    AxisDrive, Begin, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction,
-    LayoutsOfLoad, LineLayout, LineProblem, RetardedSurface, SteelLimits, SurfaceResponse, Traction,
+    ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction,
+    LineLayout, LineProblem, RetardedSurface, SteelLimits, SurfaceResponse, Traction,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
 use crate::piecewise::{self, smooth_step};
 use crate::surface::{Placement, Surfaces};
-use std::cell::Cell;
 
 /// Contact of the wheel with the rail.
 pub struct ContactModel {
     /// Shapes of both surfaces.
     pub surfaces: Surfaces,
     /// How contact forces are found.
-    pub solver: Box<dyn ContactSolver>,
+    pub solver: ActiveSetSolver,
     /// Lines of the patch.
     pub patch: PatchLines,
     /// Wheel load for which the mesh is laid out [N].
@@ -51,12 +50,7 @@ impl ContactModel {
     ///
     /// # Errors
     /// Rows of a patch without meaning.
-    pub fn new(
-        config: &Config,
-        surfaces: Surfaces,
-        solver: Box<dyn ContactSolver>,
-        reach: f64,
-    ) -> Result<Self, RowsError> {
+    pub fn new(config: &Config, surfaces: Surfaces, solver: ActiveSetSolver, reach: f64) -> Result<Self, RowsError> {
         Ok(Self {
             patch: PatchLines::new(config, surfaces.is_smooth(), reach)?,
             surfaces,
@@ -117,15 +111,14 @@ impl ContactModel {
 
     /// Solves for the contact forces of all lines; `start` are the results of the step before.
     ///
-    /// Lines are laid out for a load. A solver that is able to lets them follow the load that it finds. Others begin with the
-    /// load that is expected and solve again where they have found another one: a search by tangents of the load as a
-    /// function of the approach.
+    /// Lines are laid out for a load. The search begins with the load that is expected and solves again where it has found
+    /// another one: a search by tangents of the load as a function of the approach.
     pub fn solve(
         &self,
         step: &ContactStep,
         start: &[Line],
         found: &mut Vec<Line>,
-        scratch: &mut ContactScratch,
+        scratch: &mut ActiveSetScratch,
     ) -> Result<(), ContactError> {
         found.resize_with(start.len(), Line::default);
         let carried = |lines: &[Line]| self.width * lines::sum(lines, |line| line.contact.traction.resultant.height);
@@ -133,16 +126,12 @@ impl ContactModel {
         let expected = load_to_come::expected(&self.patch, step, start, [before, self.nominal_load], self.width);
         let mut load = self.patch.load_of(expected);
         // More layouts count as iterations: they tell one branch from another.
-        let (mut more, mut first) = (0, load);
+        let (mut more, first) = (0, load);
         let grows = if before > 0.0 && expected > 0.0 { self.patch.stretch(expected / before) } else { 1.0 };
         let mut begin = Begin::Before(grows);
         for _ in 0..MOST_LAYOUTS {
-            self.patch.lay_out(load, lines::on_points(start), found);
-            let laid_out = self.solve_laid_out((step, begin), start, (found, load), scratch);
-            load = laid_out.map_err(|error| self.of_patch(error, load))?;
-            if more == 0 {
-                first = load;
-            }
+            self.patch.lay_out(load, found);
+            self.solve_laid_out((step, begin), start, found, scratch).map_err(|error| self.of_patch(error, load))?;
             let next = self.patch.load_of(carried(found)).clamp(load / LARGEST_FACTOR, load * LARGEST_FACTOR);
             let next = followed(first, next);
             if !self.patch.is_sized() || missed(load, next) <= if more == 0 { 0.0 } else { SAME_LOAD } {
@@ -165,33 +154,28 @@ impl ContactModel {
         }
     }
 
-    /// Solves for the contact forces of lines that are laid out for a `load` \[N]. Returns the load of the layout with
-    /// which the solver ends.
+    /// Solves for the contact forces of lines that are laid out.
     fn solve_laid_out(
         &self,
         (step, begin): (&ContactStep, Begin),
         start: &[Line],
-        (found, load): (&mut [Line], f64),
-        scratch: &mut ContactScratch,
-    ) -> Result<f64, ContactError> {
-        let layouts: Vec<_> = found.iter().map(|line| line.layout).collect();
-        let following = Following { model: self, layouts: &layouts, first: load, now: Cell::new(load) };
-        let lines = start.iter().zip(step.friction).zip(&layouts).enumerate();
+        found: &mut [Line],
+        scratch: &mut ActiveSetScratch,
+    ) -> Result<(), ContactError> {
+        let lines = start.iter().zip(step.friction).zip(&*found).enumerate();
         let problem = ContactProblem {
-            lines: lines.map(|(k, ((line, friction), layout))| self.line(step, line, *friction, (k, layout))).collect(),
+            lines: lines
+                .map(|(k, ((line, friction), own))| self.line(step, line, *friction, (k, &own.layout)))
+                .collect(),
             rigid: step.rigid,
             spin: step.spin,
             nominal_load: self.nominal_line_load(),
             edge_tolerance: step.edge_tolerance,
-            layouts: Some(&following),
             begin,
         };
         let before: Vec<_> = start.iter().map(|line| &line.contact).collect();
         let mut after: Vec<_> = found.iter_mut().map(|line| &mut line.contact).collect();
-        self.solver.solve(&problem, &before, &mut after, scratch)?;
-        let load = following.now.get();
-        self.patch.lay_out(load, lines::on_points(start), found);
-        Ok(load)
+        self.solver.solve(&problem, &before, &mut after, scratch)
     }
 
     /// Problem of a line with its number and layout, which is in the state `start`.
@@ -211,7 +195,7 @@ impl ContactModel {
             size: layout.size,
             kernel: layout.kernel,
             layer: self.layer,
-            patch: self.patch.flexibility(start.contact.on_points()).map(|patch| layout.in_patch(patch, number)),
+            patch: self.patch.flexibility().map(|patch| layout.in_patch(patch, number)),
             bodies: surface_response(step),
             membrane: [&membrane_force[0], &membrane_force[1]],
             time: step.time,
@@ -241,16 +225,10 @@ impl ContactModel {
     }
 
     /// Contact state of the Hertzian patch under a line load [N/m] (the nominal load where none is given), all stuck
-    /// and without forces yet, between bodies that rest or not.
-    pub fn hertzian_guess(&self, load: f64, at_rest: bool) -> ContactState {
+    /// and without forces yet.
+    pub fn hertzian_guess(&self, load: f64) -> ContactState {
         let share = if load > 0.0 { load / self.nominal_line_load() } else { 1.0 };
-        let half_width = self.nominal_half_width * share.sqrt();
-        // Points stand, too, where the contact has two directions.
-        let sideways = self.patch.flexibility(true).is_some_and(|flexibility| flexibility.is_sideways());
-        match at_rest && !sideways {
-            true => self.solver.touching_at_rest(half_width),
-            false => self.solver.touching(half_width),
-        }
+        self.solver.touching(self.nominal_half_width * share.sqrt())
     }
 
     /// True if a driving force has jumped from what drove the hub in the last step, prescribed or reaction, or the
@@ -282,32 +260,6 @@ impl ContactModel {
     pub fn nominal_energy(&self) -> f64 {
         let penetration = self.nominal_half_width.powi(2) / (2.0 * self.surfaces.radius);
         0.5 * self.nominal_line_load() * penetration
-    }
-}
-
-/// Layouts that follow the load in a search on points.
-struct Following<'a> {
-    model: &'a ContactModel,
-    /// Layouts with which it begins, and their load \[N].
-    layouts: &'a [LineLayout],
-    first: f64,
-    /// Load of the present layout \[N].
-    now: Cell<f64>,
-}
-
-impl LayoutsOfLoad for Following<'_> {
-    fn begin(&self) {
-        self.now.set(self.first);
-    }
-
-    fn under(&self, load: f64) -> Option<Vec<LineLayout>> {
-        let ContactModel { patch, width, .. } = self.model;
-        let next = patch.load_of(width * load);
-        let missed = missed(self.now.get(), next);
-        let mut lines = (missed > SETTLED_LOAD && missed < LARGEST_CHANGE).then(|| patch.layouts(next, true))??;
-        lines.iter_mut().zip(self.layouts).for_each(|(line, first)| line.gap -= first.gap);
-        self.now.set(next);
-        Some(lines)
     }
 }
 
@@ -351,9 +303,6 @@ const LARGEST_FACTOR: f64 = 30.0;
 /// Relative difference of the load carried from that laid out for which counts as none \[1]. The approach then errs by
 /// a ninth of its square.
 const SAME_LOAD: f64 = 2e-3;
-/// Differences with which a solver changes the layout while it searches \[1].
-const SETTLED_LOAD: f64 = 1e-12;
-const LARGEST_CHANGE: f64 = 0.3;
 
 /// Length of the contact zone over the longest patch of softened steel \[1].
 const SPREAD: f64 = 1.15;

@@ -53,7 +53,6 @@ impl Decisions {
     /// Adds those with which the contact of a state was found.
     pub fn add_contact(&mut self, model: &RollingModel, state: &State) {
         for line in &state.lines {
-            line.contact.on_points().hash(self);
             model.contact.solver.decisions(&line.contact, self);
             if let Some(heat) = &model.thermal {
                 heat.elements(&line.contact).for_each(|element| element.hash(self));

@@ -136,21 +136,6 @@ pub enum StepError {
     ForeignState,
 }
 
-impl StepError {
-    /// True if the contact may be found on other nodes: those of a wider zone, or of a grid in place of points.
-    pub fn asks_for_other_nodes(&self) -> bool {
-        match self {
-            StepError::ZoneExceeded { .. } => true,
-            error => error.wants_a_grid(),
-        }
-    }
-
-    /// True if a grid may have an answer where a single patch has none.
-    pub fn wants_a_grid(&self) -> bool {
-        matches!(self, StepError::Contact { source: ContactError::Unsuited { .. }, .. })
-    }
-}
-
 /// Why a model could not be built.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelError {

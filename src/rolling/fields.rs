@@ -68,7 +68,7 @@ fn nodal_loads(config: &Config, state: &State, body: usize) -> Result<DVector<f6
     let sign = if body == 0 { 1.0 } else { -1.0 };
     let mut sum = DVector::zeros(0);
     for line in &state.lines {
-        let Some(nodes) = line.contact.solver.grid() else { continue };
+        let nodes = &line.contact.grid;
         let mut loads = &nodes.forces * sign;
         let guards = (loads.len() / 2).saturating_sub(nodes.pull[body].len()) / 2;
         nodes.pull[body].iter().enumerate().for_each(|(i, pull)| loads[2 * (i + guards)] += pull);

@@ -116,11 +116,6 @@ impl State {
     }
 }
 
-/// True if lines are on points that move with the patch.
-pub fn on_points(lines: &[Line]) -> bool {
-    lines.first().is_some_and(|line| line.contact.on_points())
-}
-
 /// Sum of a quantity per metre of width over lines, by their shares of the width.
 pub fn sum(lines: &[Line], of: impl Fn(&Line) -> f64) -> f64 {
     lines.iter().map(|line| line.layout.share * of(line)).sum()

@@ -2,7 +2,6 @@
 
 use super::contact_step::ContactStep;
 use super::line::Line;
-use super::lines;
 use super::patch_lines::PatchLines;
 use crate::contact::RigidMotion;
 
@@ -16,7 +15,7 @@ const BLOW: f64 = 10.0;
 /// Load \[N] that is expected at the end of a step from the lines `start`, which carry the load `before` \[N], given
 /// the `nominal` one \[N]; `width` \[m] is that of the bodies.
 ///
-/// Points follow the load by themselves. On nodes it goes on as in the step before. Where there is next to none it becomes
+/// It goes on as in the step before. Where there is next to none it becomes
 /// that of the approach with which the bodies would end without contact forces: lines that are laid out for far less are
 /// pushed up by their own pressures, and have no solution.
 pub fn expected(
@@ -26,14 +25,12 @@ pub fn expected(
     [before, nominal]: [f64; 2],
     width: f64,
 ) -> f64 {
-    let on_points = lines::on_points(start);
     let going_on = match before > 0.0 {
-        true if on_points => before,
         true => (before + width * step.rise).clamp(before / LARGEST_RISE, before * LARGEST_RISE),
         // Lines without forces have been laid out for those that are expected.
         false => patch.load_laid_out(start),
     };
-    if on_points || step.time.is_stationary() {
+    if step.time.is_stationary() {
         return going_on;
     }
     let met = patch.load_under(free_approach(step, start)).min(BLOW * nominal);

@@ -10,7 +10,6 @@
 //! | [`support`], [`bodies`], [`rigid`], [`sideways`], [`patch_lines`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
 //! | [`brake`] | how the wheel is braked and held |
 //! | [`flattening`], [`wear`], `spreading` | what yielding, friction and conduction across the width change in a step |
-//! | [`nodes`] | nodes on which the contact is looked for |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
 //! | [`stationary`], [`substeps`], `decisions`, [`audit`] | start state; division of communication steps, and by which decisions; energy balance |
 //! | [`output_rows`], `output_table`, [`outputs`], `across`, [`profile`], [`suggested_step`], [`fields`], [`sensitivity`] | what one can ask of a state |
@@ -33,7 +32,6 @@ pub mod line;
 pub mod lines;
 pub mod load_to_come;
 pub mod model;
-pub mod nodes;
 pub mod output_rows;
 mod output_table;
 pub mod outputs;

@@ -10,11 +10,9 @@ use super::state::State;
 use super::support::TrackSupport;
 use super::thermal::{self, ThermalModel};
 use crate::analytic;
-use crate::config::{Config, ContactMethod};
-use crate::contact::choice::NodeChoice;
+use crate::config::Config;
 use crate::contact::line::ContactGrid;
-use crate::contact::series::SeriesSolver;
-use crate::contact::{self, ContactSolver, LineKernel};
+use crate::contact::{ActiveSetScratch, ActiveSetSolver, LineKernel};
 use crate::heat::{HeatConfig, HeatError, HeatModel};
 use crate::material::Isotropic;
 use crate::mechanics::response::FreeResponse;
@@ -58,7 +56,7 @@ pub struct Workspace {
     /// Answers of wheel and rail without contact forces.
     pub free: [FreeResponse; 2],
     /// Of the contact solver.
-    pub contact: contact::ContactScratch,
+    pub contact: ActiveSetScratch,
     /// Of the heat step.
     pub heat: thermal::ThermalScratch,
     /// State before and after an internal step.
@@ -75,41 +73,10 @@ impl RollingModel {
         Ok(())
     }
 
-    /// Builds the model on given bodies with given surfaces, with contact on the nodes that the configuration asks for.
+    /// Builds the model on given bodies with given surfaces.
     pub fn new(config: Config, bodies: Pair, surfaces: Surfaces) -> Result<Self, ModelError> {
         let grid =
             ContactGrid::new(bodies.surface_x.clone(), bodies.spacing, bodies.candidates.start).under(bodies.reach);
-        let points =
-            Self::patch_reach(&config, &bodies, &surfaces).map(|reach| SeriesSolver::new(reach).within(bodies.zone));
-        let solver: Box<dyn ContactSolver> = match points {
-            Some(points) if config.solver.contact.requires_patch() => Box::new(points),
-            points => Box::new(NodeChoice::new(grid, points)),
-        };
-        Self::with_solver(config, bodies, surfaces, solver)
-    }
-
-    /// Distance up to which the bodies less half-planes are known \[m], where the series are asked for and no parameter
-    /// rules them out.
-    fn patch_reach(config: &Config, bodies: &Pair, surfaces: &Surfaces) -> Option<f64> {
-        // Reversible heating needs the strains of the surfaces.
-        let reversible = config.thermal.enabled && config.physics.thermoelastic_heating;
-        let sought = match config.solver.contact {
-            ContactMethod::Grid => false,
-            ContactMethod::Auto => surfaces.is_smooth(),
-            ContactMethod::Patch => true,
-        };
-        // They neither retard the flexibility of half-planes nor know bodies with all their finite elements.
-        let modal = config.damping.rayleigh_stiffness == 0.0 && config.solver.response.is_reduced();
-        (sought && modal && !reversible).then_some(bodies.reach)
-    }
-
-    /// Builds the model on given bodies with given surfaces and a contact solver that belongs to their ports.
-    pub fn with_solver(
-        config: Config,
-        bodies: Pair,
-        surfaces: Surfaces,
-        solver: Box<dyn ContactSolver>,
-    ) -> Result<Self, ModelError> {
         let reach = bodies.surface_x[bodies.candidates.clone()].last().copied().unwrap_or(0.0);
         let Pair { spacing, zone, .. } = bodies;
         let steel = Isotropic::from(&config.material);
@@ -125,7 +92,7 @@ impl RollingModel {
                 let bodies = Bodies::new(bodies.wheel, bodies.rail, TrackSupport::new(&config));
                 if config.contact.shape.is_line() { bodies } else { bodies.with_lines(patch_lines::apart(&config)) }
             },
-            contact: ContactModel::new(&config, surfaces, solver, zone.max(reach))?,
+            contact: ContactModel::new(&config, surfaces, ActiveSetSolver::new(grid), zone.max(reach))?,
             reach: zone.max(reach),
             patch_width: config.nominal_patch().width,
             torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear),

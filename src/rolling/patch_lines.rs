@@ -51,12 +51,7 @@ enum Layouts {
     /// for the bodies.
     Constant(Vec<LineLayout>, Option<Arc<PatchFlexibility>>),
     /// Those of a patch whose size follows from its load.
-    Sized {
-        /// The patch on points.
-        patch: Box<PatchLayout>,
-        /// The patch on fixed nodes, where it may be longer than that of the layout.
-        on_nodes: Box<PatchLayout>,
-    },
+    Sized(Box<PatchLayout>),
 }
 
 /// Size of the nodes of lines whose layout does not depend on the load.
@@ -116,18 +111,18 @@ impl PatchLines {
             (_, Some(PatchRows { rows, shapes })) => PatchLayout::rows(rows, &shapes, material, lines, radius, width),
             (_, None) => PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load),
         };
-        let lateral = |patch: PatchLayout| if config.contact.lateral { patch.sideways() } else { patch };
         let patch = patch.scaling(unit, LEAST_SIZE);
         // Soft steel under lateral forces makes patches longer than that of the layout, too.
         let roomy = !smooth || config.contact.lateral && config.physics.yielding;
-        let on_nodes = lateral(if roomy { patch.clone().with_room() } else { patch.clone() }).on_nodes(end);
+        let patch = if roomy { patch.with_room() } else { patch };
+        let patch = if config.contact.lateral { patch.sideways() } else { patch }.reaching(end);
         let (count, symmetric, centre, gaps) =
-            (on_nodes.len(), on_nodes.is_symmetric(), on_nodes.centre(), on_nodes.gaps().to_vec());
+            (patch.len(), patch.is_symmetric(), patch.centre(), patch.gaps().to_vec());
         let layouts = match smooth {
-            true => Layouts::Sized { patch: Box::new(lateral(patch)), on_nodes: Box::new(on_nodes) },
+            true => Layouts::Sized(Box::new(patch)),
             false => {
-                let flexibility = Some(on_nodes.flexibility().clone());
-                Layouts::Constant(on_nodes.staying(load, longest_patch(config)), flexibility)
+                let flexibility = Some(patch.flexibility().clone());
+                Layouts::Constant(patch.staying(load, longest_patch(config)), flexibility)
             }
         };
         Ok(Self { layouts, nodes: LineNodes::Fixed, count, symmetric, centre, gaps })
@@ -149,24 +144,18 @@ impl PatchLines {
     /// Ratio of the length of a patch under a load to that under another one.
     pub fn stretch(&self, ratio: f64) -> f64 {
         match (&self.layouts, self.nodes) {
-            (Layouts::Sized { .. }, _) => libm::cbrt(ratio),
+            (Layouts::Sized(_), _) => libm::cbrt(ratio),
             (Layouts::Constant(..), LineNodes::Following { .. }) => ratio.sqrt(),
             (Layouts::Constant(..), LineNodes::Fixed) => 1.0,
         }
     }
 
-    /// Flexibility of the lines, `on_points` or on nodes, under each other's tangential forces, if they feel them.
-    pub fn flexibility(&self, on_points: bool) -> Option<&PatchFlexibility> {
+    /// Flexibility of the lines under each other's tangential forces, if they feel them.
+    pub fn flexibility(&self) -> Option<&PatchFlexibility> {
         match &self.layouts {
             Layouts::Constant(_, flexibility) => flexibility.as_deref(),
-            Layouts::Sized { .. } => self.sized(on_points).map(|patch| &**patch.flexibility()),
+            Layouts::Sized(patch) => Some(patch.flexibility()),
         }
-    }
-
-    /// Patch, `on_points` or on nodes, whose size follows from its load.
-    fn sized(&self, on_points: bool) -> Option<&PatchLayout> {
-        let Layouts::Sized { patch, on_nodes } = &self.layouts else { return None };
-        Some(if on_points { patch } else { on_nodes })
     }
 
     /// Load of which lines are laid out while they carry `load` \[N]; zero where that does not matter.
@@ -174,20 +163,20 @@ impl PatchLines {
         match (&self.layouts, self.nodes) {
             (Layouts::Constant(..), LineNodes::Fixed) => 0.0,
             (Layouts::Constant(..), LineNodes::Following { .. }) => load,
-            (Layouts::Sized { patch, .. }, _) => patch.load_of(load),
+            (Layouts::Sized(patch), _) => patch.load_of(load),
         }
     }
 
     /// True if the flexibility of lines depends on the load.
     pub fn is_sized(&self) -> bool {
-        matches!(self.layouts, Layouts::Sized { .. })
+        matches!(self.layouts, Layouts::Sized(_))
     }
 
     /// Load \[N] under which the bodies approach each other by `approach` \[m]; zero where that does not matter.
     pub fn load_under(&self, approach: f64) -> f64 {
         match &self.layouts {
             Layouts::Constant(..) => 0.0,
-            Layouts::Sized { patch, .. } => patch.load_under(approach),
+            Layouts::Sized(patch) => patch.load_under(approach),
         }
     }
 
@@ -195,25 +184,19 @@ impl PatchLines {
     pub fn load_laid_out(&self, lines: &[Line]) -> f64 {
         match (&self.layouts, lines) {
             (Layouts::Constant(..), _) | (_, []) => 0.0,
-            (Layouts::Sized { patch, .. }, [first, ..]) => patch.load_of_share(first.layout.share),
+            (Layouts::Sized(patch), [first, ..]) => patch.load_of_share(first.layout.share),
         }
     }
 
-    /// Lines, `on_points` or on nodes, under a load \[N], if that matters.
-    pub fn layouts(&self, load: f64, on_points: bool) -> Option<Vec<LineLayout>> {
-        self.sized(on_points).map(|patch| patch.moving(load).collect())
-    }
-
-    /// Gives lines, `on_points` or on nodes, the layout of a load \[N].
-    pub fn lay_out(&self, load: f64, on_points: bool, lines: &mut [Line]) {
+    /// Gives lines the layout of a load \[N].
+    pub fn lay_out(&self, load: f64, lines: &mut [Line]) {
         match &self.layouts {
             Layouts::Constant(layouts, _) => {
                 let laid_out = |layout: &LineLayout| LineLayout { size: self.nodes.size(load), ..*layout };
                 lines.iter_mut().zip(layouts).for_each(|(line, layout)| line.layout = laid_out(layout));
             }
-            Layouts::Sized { .. } => {
-                let layouts = self.layouts(load, on_points).unwrap_or_default();
-                lines.iter_mut().zip(layouts).for_each(|(line, layout)| line.layout = layout);
+            Layouts::Sized(patch) => {
+                lines.iter_mut().zip(patch.moving(load)).for_each(|(line, layout)| line.layout = layout);
             }
         }
     }
@@ -233,7 +216,7 @@ impl PatchLines {
                     |(line, layout): (&Line, &LineLayout)| LineLayout { size: layout.size, ..line.layout } == *layout;
                 lines.len() == layouts.len() && lines.iter().zip(layouts).all(same)
             }
-            Layouts::Sized { .. } => lines.len() == self.count && lines.iter().all(sound),
+            Layouts::Sized(_) => lines.len() == self.count && lines.iter().all(sound),
         }
     }
 }
@@ -260,11 +243,11 @@ mod tests {
     /// True if the flexibility of all lines along, and across if they are sideways, is positive under a `load` \[N] with
     /// contact all over a `chord` \[m].
     fn is_positive(patch: &PatchLines, load: f64, chord: f64) -> bool {
-        let (on_points, spacing) = (false, if chord > END { 1e-3 } else { 0.7e-3 });
+        let spacing = if chord > END { 1e-3 } else { 0.7e-3 };
         let places: Vec<_> = (0..=(chord / spacing) as usize).map(|i| i as f64 * spacing - 0.5 * chord).collect();
         let mut lines = vec![Line::default(); patch.count];
-        patch.lay_out(load, on_points, &mut lines);
-        let (alone, flexibility) = (logarithms(&places, spacing), patch.flexibility(on_points).unwrap());
+        patch.lay_out(load, &mut lines);
+        let (alone, flexibility) = (logarithms(&places, spacing), patch.flexibility().unwrap());
         let in_patch: Vec<_> = lines.iter().enumerate().map(|(k, line)| line.layout.in_patch(flexibility, k)).collect();
         let powers: Vec<_> = in_patch.iter().flat_map(|line| places.iter().map(|x| line.powers(*x))).collect();
         let (nodes, directions) = (powers.len(), if flexibility.is_sideways() { 2 } else { 1 });

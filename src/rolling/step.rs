@@ -7,7 +7,6 @@ use super::error::StepError;
 use super::flattening;
 use super::line::Line;
 use super::model::{RollingModel, Workspace};
-use super::nodes;
 use super::sideways;
 use super::spreading;
 use super::state::{Brake, Controlled, HubForces, Motion, State};
@@ -159,11 +158,9 @@ fn attempt(
     workspace: &mut Workspace,
     next: &mut State,
 ) -> Result<bool, StepError> {
-    nodes::try_in_turn(model, state, |state| solve_and_commit(model, state, demand, plan, workspace, next))?;
-    // The energy is that of the solution found: the state on other nodes has none of its own yet.
+    solve_and_commit(model, state, demand, plan, workspace, next)?;
     next.audit = audit::advance(model, &plan.td, state, next);
     next.audit.plastic += next.sum(|line| line.contact.traction.yielding.plastic_work);
-    nodes::prefer(model, next);
     let numbers = [next.motion.values(), next.resultant(), next.hub.force].map(PerAxis::values);
     if !numbers.as_flattened().iter().chain([&next.audit.energy]).all(|v| v.is_finite()) {
         return Err(StepError::NotFinite { time: state.clock.time, step: plan.dt });

@@ -19,7 +19,6 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
         StepError::ZoneExceeded { load, zone: reached } => zone(*load, config)
             .or_else(|| uneven(*reached, config))
             .unwrap_or_else(|| flattened(*reached, config, shorter)),
-        error if error.wants_a_grid() => grid(),
         StepError::Contact { .. } | StepError::NotFinite { .. } => unsettled(shorter, config),
         StepError::Heat(HeatError::Input { .. }) => shorter,
         StepError::Heat(error) => heat(error, config),
@@ -35,11 +34,6 @@ pub fn failed_step(error: &StepError, config: &Config) -> String {
         _ => return error.to_string(),
     };
     format!("{error}: {advice}")
-}
-
-/// Advice where a contact is no single smooth patch.
-fn grid() -> String {
-    "set solver.contact = auto, which takes a grid where there is no such patch, or solver.contact = grid".to_owned()
 }
 
 /// The message of a start that failed under the inputs, with advice.
@@ -62,7 +56,6 @@ pub fn failed_start(error: &StepError, config: &Config, inputs: &Inputs) -> Stri
         StepError::Unpressed { .. } => {
             "set drive.load above 0, or control.vertical = displacement to hold the hub at a height".to_owned()
         }
-        error if error.wants_a_grid() => grid(),
         StepError::Contact { .. } | StepError::NotFinite { .. } | StepError::Unsettled => {
             unsettled(start::gentler(config, inputs), config)
         }

@@ -7,6 +7,7 @@ use super::Simulation;
 use crate::contact::FrictionLaw;
 use crate::material::{BOILS, INDENTATION};
 use crate::mechanics::{grid_spacing, nominal_half_width};
+use crate::rolling::line::Line;
 
 /// Makes the enumeration and the list of its items.
 macro_rules! limits {
@@ -46,7 +47,7 @@ limits! {
     StickSlip,
     /// Internal step below which friction that falls with the slip has no definite value.
     Chatter,
-    /// Wavelength of the surfaces that the contact grid resolves.
+    /// Wavelength of the surfaces that contact nodes resolve.
     Waves,
     /// Height of the surfaces that internal steps pass over.
     Sampling,
@@ -138,9 +139,8 @@ impl Simulation {
             Limit::Speed => (heat * self.speed(), AtMost(config.thermal.max_speed)),
             Limit::ThermalLoad => (heat * load, AtLeast(config.thermal.smallest_load_ratio * nominal)),
             Limit::Patch => {
-                let on_grid = self.state().lines.iter().any(|line| !line.contact.on_points());
-                let cells = outputs.contact_half_width / self.model().rolling.spacing;
-                (if on_grid { cells } else { 0.0 }, AtLeast(FEWEST_ELEMENTS))
+                let cells = |line: &Line| line.contact.traction.half_width() / line.contact.grid.size;
+                (self.state().largest(cells) / self.model().rolling.spacing, AtLeast(FEWEST_ELEMENTS))
             }
             Limit::Zone => (load, AtMost(ZONE_LOAD * nominal)),
             Limit::Reach => (self.touching_reach(), AtMost(NEAR_END * self.model().rolling.reach)),

@@ -7,8 +7,7 @@ pub mod random;
 pub use random::Random;
 use std::path::Path;
 use std::sync::Arc;
-use wheelrail::config::{Config, ContactMethod, presets};
-use wheelrail::contact::SolverState;
+use wheelrail::config::{Config, presets};
 use wheelrail::simulation::{BasisStore, Inputs, Model, Outputs, Rotation, Simulation, Translation};
 
 pub const KMH: f64 = 1.0 / 3.6;
@@ -19,7 +18,7 @@ pub fn shipped(name: &str) -> Config {
     presets::parse(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-/// A shipped preset with another density of all meshes, the contact grid included.
+/// A shipped preset with another density of all meshes, the contact nodes included.
 pub fn preset(name: &str, elements_per_half_width: usize) -> Config {
     let mut config = shipped(name);
     config.mesh.elements_per_half_width = elements_per_half_width;
@@ -90,18 +89,12 @@ pub fn range(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::MAX, f64::MIN), |(low, high), &v| (low.min(v), high.max(v)))
 }
 
-/// A preset without heat, on the contact solver asked for.
-pub fn solved_by(contact: ContactMethod, name: &str, change: impl Fn(&mut Config)) -> Arc<Model> {
+/// A preset without heat, on twenty elements and nodes.
+pub fn without_heat(name: &str, change: impl Fn(&mut Config)) -> Arc<Model> {
     let mut config = preset(name, 20);
     config.thermal.enabled = false;
-    config.solver.contact = contact;
     change(&mut config);
     model(config)
-}
-
-/// True where the contact was found on a patch.
-pub fn is_patch(simulation: &Simulation) -> bool {
-    matches!(simulation.state().lines[0].contact.solver, SolverState::Series(_))
 }
 
 /// Outputs at the start and after every step of inputs that change.

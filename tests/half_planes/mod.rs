@@ -7,10 +7,10 @@ use nalgebra::{DMatrix, DVector};
 use wheelrail::analytic::{HalfPlane, carter_force, carter_full_slip, contact_modulus, hertz_half_width};
 use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::active_set::ActiveSetSolver;
-use wheelrail::contact::line::{ContactGrid, GridState};
+use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::{
-    AxisDrive, Begin, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
-    LineKernel, LineProblem, RigidMotion, SolverState, Spin, SteelLimits, SurfaceResponse,
+    ActiveSetScratch, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction, Influence, LineKernel,
+    LineProblem, RigidMotion, Spin, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -175,12 +175,11 @@ impl HalfPlanes {
             spin: Spin::default(),
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,
-            layouts: None,
             begin: Begin::Before(1.0),
         };
         let mut found = vec![ContactState::default(); lines.len()];
         let mut places: Vec<_> = found.iter_mut().collect();
-        self.solver.solve(&problem, start, &mut places, &mut ContactScratch::default())?;
+        self.solver.solve(&problem, start, &mut places, &mut ActiveSetScratch::default())?;
         Ok(found)
     }
 
@@ -202,24 +201,11 @@ impl HalfPlanes {
 
     /// Nodal normal force at a candidate [N/m].
     pub fn normal(&self, state: &ContactState, i: usize) -> f64 {
-        grid_state(state).forces[self.grid.component(i) + 1]
+        state.grid.forces[self.grid.component(i) + 1]
     }
 
     /// Nodal tangential force at a candidate [N/m].
     pub fn tangential(&self, state: &ContactState, i: usize) -> f64 {
-        grid_state(state).forces[self.grid.component(i)]
-    }
-}
-
-/// Memory of the solver on the grid.
-pub fn grid_state(state: &ContactState) -> &GridState {
-    state.solver.grid().unwrap()
-}
-
-/// Memory of the solver on the grid, to be changed.
-pub fn grid_state_mut(state: &mut ContactState) -> &mut GridState {
-    match &mut state.solver {
-        SolverState::Grid(grid) => grid,
-        other => panic!("state of another solver: {other:?}"),
+        state.grid.forces[self.grid.component(i)]
     }
 }

@@ -8,12 +8,10 @@ use rigid_bodies::{RigidBodies, Step};
 use serde_json::Value as Json;
 use std::f64::consts::PI;
 use wheelrail::analytic::{HalfPlane, contact_modulus};
-use wheelrail::contact::choice::NodeChoice;
 use wheelrail::contact::line::ContactGrid;
-use wheelrail::contact::series::SeriesSolver;
 use wheelrail::contact::{
-    AxisDrive, ContactError, ContactScratch, ContactSolver, ContactState, Friction, HalfSpace, LineLayout, PatchLayout,
-    PatchMaterial, RigidMotion, Spin,
+    ActiveSetScratch, ActiveSetSolver, AxisDrive, ContactError, ContactState, Friction, HalfSpace, LineLayout,
+    PatchLayout, PatchMaterial, RigidMotion, Spin,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::patch::Hertz;
@@ -33,8 +31,8 @@ pub const SHEAR_MODULUS: f64 = 0.5 * YOUNG / (1.0 + NU);
 const MEAN_AXIS: f64 = 6e-3;
 /// Width of the bodies, which are rigid here but for their half-spaces [m].
 const WIDTH: f64 = 0.05;
-/// Reach of the points [m].
-const REACH: f64 = 0.03;
+/// Nodes per half axis along the direction of rolling, twice those of the product: errors are those of lines.
+pub const NODES: u32 = 20;
 /// Half of the length of the grid over that of the patch [1].
 const ROOM: f64 = 2.0;
 
@@ -78,7 +76,7 @@ pub type Lines = Vec<ContactState>;
 
 /// Two half-spaces that touch in an ellipse.
 pub struct HalfSpaces {
-    solver: Box<dyn ContactSolver>,
+    solver: ActiveSetSolver,
     pub hertz: Hertz,
     pub radius: f64,
     patch: PatchLayout,
@@ -87,15 +85,14 @@ pub struct HalfSpaces {
 }
 
 impl HalfSpaces {
-    /// With the ratio `aspect` of the half axes along and across the direction of rolling; on series alone.
+    /// With the ratio `aspect` of the half axes along and across the direction of rolling.
     pub fn new(aspect: f64, lines: usize) -> Self {
-        Self::build(aspect, lines, 4, |_| Box::new(SeriesSolver::new(REACH)))
+        Self::on_nodes(aspect, lines, NODES)
     }
 
     /// As [`Self::new`], and every line takes lateral creepage and spin.
     pub fn sideways(aspect: f64, lines: usize) -> Self {
-        let along = Self::new(aspect, lines);
-        Self { patch: along.patch.sideways(), ..along }
+        Self::sideways_on_nodes(aspect, lines, NODES)
     }
 
     /// A circle that takes lateral creepage, of steel as stiff in contact but without Poisson's ratio: it answers along as across.
@@ -117,25 +114,14 @@ impl HalfSpaces {
         Self { patch, radius, ..other }
     }
 
-    /// As [`Self::new`], on nodes that scale with their line, a number of them per half axis along the direction of rolling.
-    pub fn on_nodes(aspect: f64, lines: usize, nodes: u32) -> Self {
-        Self::build(aspect, lines, nodes, |grid| Box::new(NodeChoice::new(grid.clone(), None)))
-    }
-
-    /// As [`Self::sideways`], on a grid of a number of `nodes` per half axis along the direction of rolling.
+    /// As [`Self::sideways`], on a number of `nodes` per half axis along the direction of rolling.
     pub fn sideways_on_nodes(aspect: f64, lines: usize, nodes: u32) -> Self {
         let along = Self::on_nodes(aspect, lines, nodes);
         Self { patch: along.patch.sideways(), ..along }
     }
 
-    /// Beside a grid of a number of `nodes` per half axis along the direction of rolling.
-    pub fn with_grid(aspect: f64, lines: usize, nodes: u32) -> Self {
-        Self::build(aspect, lines, nodes, |grid| {
-            Box::new(NodeChoice::new(grid.clone(), Some(SeriesSolver::new(REACH))))
-        })
-    }
-
-    fn build(aspect: f64, lines: usize, nodes: u32, solver: impl Fn(&ContactGrid) -> Box<dyn ContactSolver>) -> Self {
+    /// As [`Self::new`], on a number of `nodes` per half axis along the direction of rolling.
+    pub fn on_nodes(aspect: f64, lines: usize, nodes: u32) -> Self {
         // The radii of curvature of a unit contact of this aspect, scaled to the mean axis.
         let lateral = |ratio: f64| Hertz::new(1.0, ratio, modulus());
         let (mut low, mut high) = (1e-4_f64, 1e4_f64);
@@ -150,7 +136,7 @@ impl HalfSpaces {
         let (spacing, side) = (hertz.under(LOAD).a / f64::from(nodes), (ROOM * f64::from(nodes)).ceil() as i32);
         let grid = ContactGrid::uniform((-side..=side).map(|i| f64::from(i) * spacing).collect(), spacing, 3);
         Self {
-            solver: solver(&grid),
+            solver: ActiveSetSolver::new(grid),
             patch: PatchLayout::ellipse(&hertz, radius, material(), lines, WIDTH, LOAD)
                 .scaling(hertz.under(LOAD).a, 0.0),
             hertz,
@@ -159,24 +145,9 @@ impl HalfSpaces {
         }
     }
 
-    /// Lines that touch, as series.
+    /// Lines that touch.
     pub fn start(&self) -> Lines {
         (0..self.patch.len()).map(|_| self.solver.touching(self.hertz.under(LOAD).a)).collect()
-    }
-
-    /// Lines that touch and rest, on the grid.
-    pub fn start_at_rest(&self) -> Lines {
-        (0..self.patch.len()).map(|_| self.solver.touching_at_rest(0.0)).collect()
-    }
-
-    /// Lines of the grid as series, if the solver takes all of them back.
-    pub fn as_series(&self, lines: &Lines) -> Option<Lines> {
-        self.solver.on_preferred_nodes(&lines.iter().collect::<Vec<_>>())
-    }
-
-    /// Lines of the series on the grid.
-    pub fn as_grid(&self, lines: &Lines) -> Lines {
-        self.solver.on_other_nodes(&lines.iter().collect::<Vec<_>>()).unwrap()
     }
 
     pub fn layout(&self, load: f64) -> Vec<LineLayout> {
@@ -203,7 +174,7 @@ impl HalfSpaces {
         laws: (TimeDerivative, Friction),
         start: &Lines,
     ) -> Result<Lines, ContactError> {
-        self.solve_with(load, motion, spin, laws, start, &mut ContactScratch::default())
+        self.solve_with(load, motion, spin, laws, start, &mut ActiveSetScratch::default())
     }
 
     /// [`Self::solve_sideways`] with the memory of the solver. Without a load the wheel is in the air.
@@ -214,13 +185,13 @@ impl HalfSpaces {
         spin: Spin,
         laws: (TimeDerivative, Friction),
         start: &Lines,
-        scratch: &mut ContactScratch,
+        scratch: &mut ActiveSetScratch,
     ) -> Result<Lines, ContactError> {
         let layout = self.layout(if load > 0.0 { load } else { LOAD });
         let load = [load / WIDTH, LOAD / WIDTH];
         let (lines, flexibility) = (&layout[..], Some(&**self.patch.flexibility()));
         let step = Step { radius: self.radius, lines, flexibility, load, motion, spin, laws };
-        self.bodies.solve_with(&*self.solver, &step, start, scratch)
+        self.bodies.solve_with(&self.solver, &step, start, scratch)
     }
 
     /// Motions with a prescribed creepage.

@@ -4,8 +4,8 @@
 use nalgebra::{DMatrix, DVector};
 use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::{
-    AxisDrive, Begin, ContactError, ContactProblem, ContactScratch, ContactSolver, ContactState, Friction, Influence,
-    LineLayout, LineProblem, PatchFlexibility, RigidMotion, Spin, SteelLimits, SurfaceResponse,
+    ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction,
+    Influence, LineLayout, LineProblem, PatchFlexibility, RigidMotion, Spin, SteelLimits, SurfaceResponse,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -67,20 +67,20 @@ impl RigidBodies {
     /// Contact of all lines after a step from `start`.
     pub fn solve(
         &self,
-        solver: &dyn ContactSolver,
+        solver: &ActiveSetSolver,
         step: &Step,
         start: &[ContactState],
     ) -> Result<Vec<ContactState>, ContactError> {
-        self.solve_with(solver, step, start, &mut ContactScratch::default())
+        self.solve_with(solver, step, start, &mut ActiveSetScratch::default())
     }
 
     /// [`Self::solve`] with the memory of a solver. Without a load the hub is held so high that nothing touches.
     pub fn solve_with(
         &self,
-        solver: &dyn ContactSolver,
+        solver: &ActiveSetSolver,
         step: &Step,
         start: &[ContactState],
-        scratch: &mut ContactScratch,
+        scratch: &mut ActiveSetScratch,
     ) -> Result<Vec<ContactState>, ContactError> {
         let Step {
             radius,
@@ -125,7 +125,6 @@ impl RigidBodies {
             spin,
             nominal_load,
             edge_tolerance: 1e-5,
-            layouts: None,
             begin: Begin::Before(1.0),
         };
         let mut found = start.to_vec();

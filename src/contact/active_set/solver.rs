@@ -1,6 +1,6 @@
 //! Contact solver that finds the states of a line by an active set.
 
-use super::search::ActiveSet;
+use super::search::{ActiveSet, ActiveSetScratch};
 use crate::contact::error::ContactError;
 use crate::contact::line::ContactGrid;
 use crate::contact::line::contact_line::{LineStart, Resumed};
@@ -8,7 +8,7 @@ use crate::contact::line::history::LineHistory;
 use crate::contact::line::state::{GridState, NodeStatus};
 use crate::contact::line::vectors::copy;
 use crate::contact::problem::{Begin, ContactProblem, LineProblem};
-use crate::contact::solver::{ContactScratch, ContactSolver, ContactState, SolverState};
+use crate::contact::state::ContactState;
 use crate::contact::traction::Traction;
 use crate::linalg::POINTS;
 use crate::multistep::History;
@@ -16,7 +16,8 @@ use crate::piecewise::Piecewise;
 use nalgebra::DVector;
 use std::hash::{Hash, Hasher};
 
-/// Contact solver on the paired nodes of a line.
+/// Contact solver on the paired nodes of a line: finds the contact forces of one step, or of a stationary state. A
+/// [`ContactState`] is that of one line.
 #[derive(Clone, Debug)]
 pub struct ActiveSetSolver {
     grid: ContactGrid,
@@ -27,22 +28,13 @@ impl ActiveSetSolver {
     pub fn new(grid: ContactGrid) -> Self {
         Self { grid }
     }
-
-    /// Grid within which patches stay.
-    pub fn grid(&self) -> &ContactGrid {
-        &self.grid
-    }
 }
 
 /// Makes `found` the start of a search, which begins with its states where they are `resumed`.
-fn begin<'a>(start: &ContactState, found: &'a mut ContactState, resumed: bool) -> Result<LineStart<'a>, ContactError> {
-    let before = start.solver.grid().ok_or(ContactError::ForeignState)?;
+fn begin<'a>(start: &ContactState, found: &'a mut ContactState, resumed: bool) -> LineStart<'a> {
+    let before = &start.grid;
     let size_before = before.size;
-    let ContactState { traction, history, energy, damping, solver, .. } = found;
-    if !matches!(solver, SolverState::Grid(_)) {
-        *solver = SolverState::Grid(Box::default());
-    }
-    let SolverState::Grid(state) = solver else { return Err(ContactError::ForeignState) };
+    let ContactState { traction, history, energy, damping, grid: state } = found;
     let resumed = resumed.then(|| Resumed::take(state));
     state.copy_from(before);
     history.copy_from(&start.history);
@@ -51,7 +43,7 @@ fn begin<'a>(start: &ContactState, found: &'a mut ContactState, resumed: bool) -
     for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
         copy(ours, theirs);
     }
-    Ok(LineStart { state, history, traction, energy, damping, resumed, size_before })
+    LineStart { state, history, traction, energy, damping, resumed, size_before }
 }
 
 impl ActiveSetSolver {
@@ -61,21 +53,21 @@ impl ActiveSetSolver {
         (problem, follow): (&ContactProblem, bool),
         start: &[&ContactState],
         found: &mut [&mut ContactState],
-        scratch: &mut ContactScratch,
+        scratch: &mut ActiveSetScratch,
     ) -> Result<(), ContactError> {
         let resumed = follow && problem.begin == Begin::Found && !problem.is_sideways();
         let begun = start.iter().zip(found).map(|(start, found)| begin(start, found, resumed));
-        let mut starts = begun.collect::<Result<Vec<_>, _>>()?;
+        let mut starts: Vec<_> = begun.collect();
         for LineStart { state, history, .. } in starts.iter_mut().filter(|_| problem.is_sideways()) {
             state.reach_across(self.grid.len());
             history.friction.reach(2 * self.grid.len());
         }
-        ActiveSet::new(&self.grid, (problem, follow), starts, &mut scratch.active_set).run()
+        ActiveSet::new(&self.grid, (problem, follow), starts, scratch).run()
     }
-}
 
-impl ContactSolver for ActiveSetSolver {
-    fn touching(&self, half_width: f64) -> ContactState {
+    /// A start for [`Self::solve`]: bodies that touch and stick within `half_width` \[m] of the contact point, without
+    /// forces yet.
+    pub fn touching(&self, half_width: f64) -> ContactState {
         let reach = half_width.max(0.5 * self.grid.spacing);
         let touches = |x: &f64| if x.abs() < reach { NodeStatus::Stick } else { NodeStatus::Open };
         let (n, nodal) = (self.grid.len(), || DVector::zeros(self.grid.components()));
@@ -94,17 +86,19 @@ impl ContactSolver for ActiveSetSolver {
         ContactState {
             traction: Traction::without_forces(),
             history: LineHistory::none(n),
-            solver: SolverState::Grid(Box::new(state)),
+            grid: state,
             ..ContactState::default()
         }
     }
 
-    fn solve(
+    /// Solves `problem` from the results `start` of the step before, one for each of its lines, and writes all of
+    /// `found`; on error `found` is meaningless.
+    pub fn solve(
         &self,
         problem: &ContactProblem,
         start: &[&ContactState],
         found: &mut [&mut ContactState],
-        scratch: &mut ContactScratch,
+        scratch: &mut ActiveSetScratch,
     ) -> Result<(), ContactError> {
         let fits = |line: &LineProblem| line.bodies.shared.relative.nrows() == 2 * POINTS;
         if !problem.lines.iter().all(fits) || [start.len(), found.len()] != [problem.lines.len(); 2] {
@@ -119,23 +113,25 @@ impl ContactSolver for ActiveSetSolver {
         }
     }
 
-    fn fits(&self, state: &ContactState) -> bool {
-        let Some(line) = state.solver.grid() else { return false };
+    /// True if a state has the dimensions of this solver.
+    pub fn fits(&self, state: &ContactState) -> bool {
+        let ContactState { grid, history, traction, .. } = state;
         let (n, components) = (self.grid.len(), self.grid.components());
-        line.fits(n, components) && state.history.friction.fits(n * line.directions()) && state.traction.fits()
+        grid.fits(n, components) && history.friction.fits(n * grid.directions()) && traction.fits()
     }
 
-    fn decisions(&self, state: &ContactState, mut into: &mut dyn Hasher) {
-        let Some(state) = state.solver.grid() else { return };
-        for (status, yielded) in state.status.iter().zip(&state.yielded) {
-            (*status as u8 + 4 * u8::from(*yielded)).hash(&mut into);
+    /// Writes the decisions between open, stick and slip with which a state was found: along states with the same ones the
+    /// solution is a smooth function of the data.
+    pub fn decisions(&self, state: &ContactState, into: &mut impl Hasher) {
+        for (status, yielded) in state.grid.status.iter().zip(&state.grid.yielded) {
+            (*status as u8 + 4 * u8::from(*yielded)).hash(into);
         }
     }
 
-    fn surface_strain(&self, state: &ContactState) -> [Piecewise; 2] {
-        let Some(line) = state.solver.grid() else { return Default::default() };
-        let grid = &self.grid.scaled(line.size);
+    /// Tangential strains `∂u_x/∂x` of the surfaces of wheel and rail \[1].
+    pub fn surface_strain(&self, state: &ContactState) -> [Piecewise; 2] {
+        let grid = &self.grid.scaled(state.grid.size);
         let strains = |u| (0..grid.len()).map(|i| grid.slope(u, i, 0)).collect();
-        line.surface.each_ref().map(|u| Piecewise { x: grid.x.clone(), value: strains(u) })
+        state.grid.surface.each_ref().map(|u| Piecewise { x: grid.x.clone(), value: strains(u) })
     }
 }

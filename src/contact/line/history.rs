@@ -1,4 +1,4 @@
-//! History of a line that its next step refers to, whatever discretisation found it: rim angle and friction.
+//! History of a line that its next step refers to: rim angle and friction.
 
 use crate::multistep::{History, TimeDerivative};
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Friction at the end of the last step, and the impulses that the time formula attributes to that step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FrictionHistory {
-    /// Friction forces on the wheel at the places of the discretisation [N/m].
+    /// Friction forces on the wheel at the nodes, those across after those along [N/m].
     pub force: Vec<f64>,
     /// Their impulses in the last step [N s/m].
     pub impulse: Vec<f64>,

@@ -1,7 +1,7 @@
 //! One contact line on a grid of paired surface nodes: states, history, gap, slip and read-off.
 //!
 //! A line knows no solver, no rigid axis and no brake: rigid motions are numbers to it. [`ContactGrid`] has the nodes,
-//! [`GridState`] their states, [`LineHistory`] the history that all discretisations of a line share, [`given`] the
+//! [`GridState`] their states, [`LineHistory`] rim angle and friction of the step before, [`given`] the
 //! known part of a problem with its [`hot_layers`] and the [`strength`] of the steel, [`contact_line`] the line in the
 //! present iterate, [`kinematics`] its displacements, gaps and slips, [`rows`] the same as affine functions, [`alone`]
 //! the flexibility that it has for itself, [`across`] its lateral direction, [`exchange`] how lines feel the forces of all,

@@ -5,9 +5,7 @@ use super::super::contact_step::ContactStep;
 use super::super::error::StepError;
 use super::super::flattening;
 use super::super::line::Line;
-use super::super::lines;
 use super::super::model::{RollingModel, Workspace};
-use super::super::nodes;
 use super::super::state::{Brake, Clock, HubForces, Motion, Pressing, State};
 use super::super::substeps;
 use super::super::thermal;
@@ -15,7 +13,7 @@ use super::super::thermal_state::ThermalState;
 use super::goal::{Goal, Trial};
 use crate::axes::{Axis, PerAxis};
 use crate::config::Tuning;
-use crate::contact::{AxisDrive, ContactError, ContactScratch, Friction, FrictionLaw, Heating, LineLayout};
+use crate::contact::{ActiveSetScratch, AxisDrive, ContactError, Friction, FrictionLaw, Heating, LineLayout};
 use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative};
 
@@ -54,7 +52,7 @@ pub(super) fn settle(
         hub: HubForces { prescribed, ..HubForces::default() },
         wheel,
         rail,
-        lines: lines(model, load, !goal.moving && goal.drive.friction > 0.0, thermal),
+        lines: lines(model, load, thermal),
         available_friction: goal.drive.friction,
         tread_point: tuning.tread_point,
         ..State::default()
@@ -68,8 +66,7 @@ pub(super) fn settle(
         // The first pass finds out where wheel and rail touch, and whether they do.
         let touching = number > 0 && state.resultant().height > 0.0;
         let pass = Pass { model, goal, friction, touching };
-        let run = |state: &State| pass.run(state, &mut trial, workspace, &mut next);
-        let passed = nodes::try_in_turn(model, &state, run)?;
+        let passed = pass.run(&state, &mut trial, workspace, &mut next)?;
         // Whether a speed is sought is decided from the second pass on.
         let decided = number > 0 || goal.sought.is_none() && !goal.seeks_aside;
         change = if decided { passed } else { f64::INFINITY };
@@ -87,17 +84,17 @@ pub(super) fn settle(
 }
 
 /// Lines that touch and stick under about the `load` [N/m], with given temperatures.
-fn lines(model: &RollingModel, load: f64, at_rest: bool, thermal: Vec<Option<ThermalState>>) -> Vec<Line> {
+fn lines(model: &RollingModel, load: f64, thermal: Vec<Option<ThermalState>>) -> Vec<Line> {
     let mut temperatures = thermal.into_iter();
     let line = |_| Line {
         layout: LineLayout::default(),
-        contact: model.contact.hertzian_guess(load, at_rest),
+        contact: model.contact.hertzian_guess(load),
         flattening: flattening::none(model),
         worn: 0.0,
         thermal: temperatures.next().flatten(),
     };
     let mut lines: Vec<_> = (0..model.contact.patch.count).map(line).collect();
-    model.contact.patch.lay_out(load * model.wheel.width, lines::on_points(&lines), &mut lines);
+    model.contact.patch.lay_out(load * model.wheel.width, &mut lines);
     thermal::share_growth(&mut lines);
     lines
 }
@@ -183,7 +180,7 @@ impl Pass<'_> {
         &self,
         contact: ContactStep,
         (state, trial): (&State, &Trial),
-        scratch: &mut ContactScratch,
+        scratch: &mut ActiveSetScratch,
         next: &mut State,
     ) -> Result<(), StepError> {
         let model = self.model;
@@ -196,9 +193,7 @@ impl Pass<'_> {
             solved = model.contact.solve(&contact, &state.lines, &mut next.lines, scratch);
         }
         solved.map_err(|error| match self.check_adhesion(state, trial, NEARLY_ALL) {
-            Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. } | ContactError::Unsuited { .. }) => {
-                beyond
-            }
+            Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. }) => beyond,
             _ => model.contact.failure(error, 0.0, 0.0),
         })
     }
@@ -238,7 +233,6 @@ fn complete(model: &RollingModel, goal: &Goal, trial: &Trial, mut state: State) 
         ..state.motion
     };
     state.side = model.wheel.sideways.at_rest(state.resultant().lateral);
-    nodes::prefer(model, &mut state);
     (state.hub.gravity, state.elevation) = (model.wheel.gravity(&goal.drive), goal.drive.elevation);
     state.hub.brake = Brake::stationary(goal.given.rotation, rotation, state.hub.force.rotation);
     let moment = &mut state.hub.force.rotation;

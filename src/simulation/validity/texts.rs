@@ -77,7 +77,7 @@ fn patch(value: f64, bound: f64) -> String {
         "pressure, length and friction forces are no more than a hint".into()
     };
     format!(
-        "half-width of the patch is {value:.2} cells of the contact grid, fewer than {bound:.0}: {errors}; raise \
+        "half-width of the patch is {value:.2} cells between contact nodes, fewer than {bound:.0}: {errors}; raise \
          mesh.grid_elements_per_half_width, or lower model.nominal_load and set drive.load"
     )
 }
