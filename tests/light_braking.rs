@@ -3,7 +3,7 @@
 mod common;
 use common::{figure, model, prescribed, range};
 use std::sync::Arc;
-use wheelrail::config::{Config, ContactMethod, StartTemperature};
+use wheelrail::config::{Config, StartTemperature};
 use wheelrail::simulation::{Model, Outputs, Simulation};
 
 /// Used friction, rise of the surface temperature above the bodies [K] and share of the patch that sticks.
@@ -15,7 +15,6 @@ struct Seen {
 
 fn on_nodes(name: &str, nodes: usize, change: impl Fn(&mut Config)) -> Arc<Model> {
     let mut config = common::shipped(name);
-    config.solver.contact = ContactMethod::Grid;
     config.initial.temperature = StartTemperature::Stationary;
     config.mesh.grid_elements_per_half_width = nodes;
     change(&mut config);
