@@ -36,8 +36,8 @@ fn traction(grid: &ContactGrid, normal: impl Fn(f64) -> f64, tangential: impl Fn
         state.forces[grid.component(i)] = t;
         state.forces[grid.component(i) + 1] = n;
     }
-    traction.friction.coefficient = FRICTION;
-    read_off(grid, [0.0, f64::INFINITY], &state, [&vec![0.0; n], &[]], &mut traction);
+    let limits: (_, &dyn Fn(usize) -> f64) = ([0.0, f64::INFINITY], &|_| FRICTION);
+    read_off(grid, limits, (&state, true), [&vec![0.0; n], &[]], &mut traction);
     traction
 }
 

@@ -27,6 +27,7 @@ fn finish_line(line: &mut ContactLine) {
         line.traction.friction.slip_speed = libm::hypot(along, across);
         line.traction.spin_moment = line.spin_moment();
     }
+    let to_right = line.upstream_right();
     let ContactLine { grid, given, iterate, state, traction, .. } = line;
     let LineIterate { overlap, centred_slip, .. } = &**iterate;
     observe::overlap(grid, state, overlap, traction);
@@ -35,7 +36,10 @@ fn finish_line(line: &mut ContactLine) {
     traction.yielding.springing_work = observe::springing_work(grid, overlap, limits, &state.forces);
     let pressures = limits.iter().enumerate().map(|(i, force)| force / grid.width(i));
     let limit = pressures.reduce(f64::max).unwrap_or(f64::INFINITY);
-    observe::read_off(grid, [power, limit], state, [&centred_slip[0], &centred_slip[1]], traction);
+    let coefficient = traction.friction.coefficient;
+    let friction = |i: usize| given.strength.friction(i, coefficient);
+    let slips = [&*centred_slip[0], &*centred_slip[1]];
+    observe::read_off(grid, ([power, limit], &friction), (state, to_right), slips, traction);
 }
 
 /// Moves the histories of displacements and rim angle on, and takes the energy that lines have by each other.

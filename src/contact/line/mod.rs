@@ -9,7 +9,7 @@
 //! [`kernel`] the correction of the compliance at grid scale, [`slopes`] the slopes against which pressure pushes,
 //! [`rim`] the frame that turns with the rim, [`retarded`] the forces of retarded layers, [`zone`] the ends of the
 //! grid, [`resize`] the way to nodes of another size. Of a solution [`power`] takes the power, [`observe`] the traction,
-//! and [`mod@finish`] both. Theory: `docs/theory/contact.md`.
+//! with the [`slip_zone`] of every patch, and [`mod@finish`] both. Theory: `docs/theory/contact.md`.
 
 pub(super) mod across;
 pub(super) mod alone;
@@ -29,6 +29,7 @@ pub(super) mod resize;
 pub(super) mod retarded;
 pub(super) mod rim;
 pub(super) mod rows;
+pub(super) mod slip_zone;
 pub(super) mod slopes;
 pub(super) mod state;
 pub mod streamline;

@@ -1,6 +1,7 @@
 //! Traction read off a solution on the grid. It varies smoothly while the contact edges move between nodes.
 
 use super::grid::ContactGrid;
+use super::slip_zone::{NodalFriction, SlipZone};
 use super::state::{GridState, NodeStatus, for_each_patch};
 use super::streamline::edge_offset;
 use super::strength::Strength;
@@ -20,33 +21,34 @@ const MARGIN: f64 = 1e-3;
 
 /// Fills patches, profiles and peaks in `traction` from forces and friction coefficient, for the `power` of
 /// friction [W/m] and the largest pressure `limit` that the steel bears anywhere \[Pa], and the slip velocities of the
-/// candidates with centred differences, along and across [m/s].
+/// candidates with centred differences, along and across [m/s]. `coefficient`: the friction that a candidate can bear over its
+/// normal force \[1]; `to_right`: the material arrives from `+x`.
 pub fn read_off(
     grid: &ContactGrid,
-    [power, limit]: [f64; 2],
-    state: &GridState,
+    ([power, limit], coefficient): ([f64; 2], &dyn Fn(usize) -> f64),
+    (state, to_right): (&GridState, bool),
     [centred_slip, centred_across]: [&[f64]; 2],
     traction: &mut Traction,
 ) {
     let forces = &state.forces;
     let tangential = |i: usize| forces[grid.component(i)];
     let lateral = |i: usize| state.lateral.get(i).copied().unwrap_or(0.0);
-    let shear = |i: usize| if lateral(i) == 0.0 { tangential(i).abs() } else { libm::hypot(tangential(i), lateral(i)) };
     let normal = |i: usize| forces[grid.component(i) + 1];
     traction.pressure_max = pressure_peak(grid, &state.yielded, normal, limit);
     traction.edges.clear();
     traction.conducting.clear();
     traction.patches.clear();
-    let (mut length, mut stuck) = (0.0, 0.0);
+    let (mut length, mut stuck, mut zone) = (0.0, 0.0, None);
+    let friction = NodalFriction { grid, state, coefficient, to_right };
     for_each_patch(&state.status, |run| {
         let apart = edges_apart(grid, normal, &run);
         traction.edges.push(edges(grid, normal, &run, apart));
         traction.conducting.push(apart);
-        traction.patches.push(stretch(grid, apart, &run));
-        length += run.clone().map(|i| grid.width(i)).sum::<f64>();
-        let margin =
-            |i: usize| (grid.share(i) * (traction.friction.coefficient * normal(i) - shear(i))).max(0.0).powi(2);
-        stuck += stick_length(grid, &state.status, margin, run);
+        let patch = stretch(grid, apart, &run);
+        traction.patches.push(patch);
+        length += 2.0 * patch.half_length();
+        zone = SlipZone::of(&friction, &run, patch);
+        stuck += friction.stick_length(run, patch);
     });
     traction.stick_fraction = if length > 0.0 { (stuck / length).clamp(0.0, 1.0) } else { 0.0 };
 
@@ -58,17 +60,27 @@ pub fn read_off(
         over_patches(grid, status, patches, |i| lateral(i) / grid.width(i), &mut traction.lateral_shear);
         over_patches(grid, status, patches, |i| centred_across[i], &mut traction.lateral_slip);
     }
-    // The upwind slip knows where friction acts, the centred one how much it dissipates. What is left of the slip at
-    // stuck nodes is round-off: it would place the heat of a contact that sticks everywhere at random.
-    let density = |i: usize| match status[i] {
+    heat(&friction, zone.filter(|_| patches.len() == 1), patches, &mut traction.friction.dissipation);
+    traction.friction.dissipation.scale_to(power, &traction.pressure);
+}
+
+/// Writes the profile of friction's power, but for a factor: that of the slip `zone` of a single patch, or from node to node.
+/// The upwind slip knows where friction acts, the centred one how much it dissipates. What is left of the slip at stuck
+/// nodes is round-off: it would place the heat of a contact that sticks everywhere at random.
+fn heat(friction: &NodalFriction, zone: Option<SlipZone>, patches: &[Interval], dissipation: &mut Piecewise) {
+    let NodalFriction { grid, state, .. } = *friction;
+    let density = |i: usize| match state.status[i] {
         NodeStatus::SlipForward | NodeStatus::SlipBackward => {
-            let across = state.slip[1].get(i).map_or(0.0, |slip| lateral(i) * slip);
-            (-(tangential(i) * state.slip[0][i] + across) / grid.width(i)).max(0.0)
+            let [along, across] = friction.force(i);
+            let across = state.slip[1].get(i).map_or(0.0, |slip| across * slip);
+            (-(along * state.slip[0][i] + across) / grid.width(i)).max(0.0)
         }
         NodeStatus::Stick | NodeStatus::Open => 0.0,
     };
-    over_patches(grid, status, patches, density, &mut traction.friction.dissipation);
-    traction.friction.dissipation.scale_to(power, &traction.pressure);
+    let of_nodes = (state.directions() > 1).then_some(density);
+    if !zone.is_some_and(|zone| zone.power(grid, of_nodes, dissipation)) {
+        over_patches(grid, &state.status, patches, density, dissipation);
+    }
 }
 
 /// Fills the yielding part of `traction` from the depths `overlap` by which candidates have given way [m].
@@ -209,29 +221,4 @@ fn parabola_peak(samples: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
     let c = normal.lu().solve(&rhs)?;
     let at = -0.5 * c[1] / c[2];
     (c[2] < 0.0 && at >= ends[0] && at <= ends[1]).then(|| c[0] + 0.5 * c[1] * at).filter(|p| *p > 0.0)
-}
-
-/// Length of the stick zone of one run [m]; its boundary between stick and slip is found below grid scale from
-/// the quadratic through `margin`, `(μp − |t|)²`, at the three outermost stuck nodes.
-fn stick_length(grid: &ContactGrid, status: &[NodeStatus], margin: impl Fn(usize) -> f64, run: Range<usize>) -> f64 {
-    let mut stuck = run.clone().filter(|&i| status[i].is_stuck());
-    let Some(low) = stuck.next() else { return 0.0 };
-    let high = stuck.next_back().unwrap_or(low);
-    let beyond = |edge: usize, inward: isize| {
-        let at_end = if inward < 0 { edge + 1 >= run.end } else { edge <= run.start };
-        if at_end || high - low < 2 {
-            return 0.5;
-        }
-        let at = |k: isize| margin((edge as isize + k * inward) as usize);
-        let (f0, f1, f2) = (at(0), at(1), at(2));
-        // f(s) = f0 + b s + c s² with s in cells towards the inside; its root lies at s in [−1, 0].
-        let (b, c) = (2.0 * f1 - 1.5 * f0 - 0.5 * f2, 0.5 * (f0 + f2) - f1);
-        let discriminant = b * b - 4.0 * c * f0;
-        if b <= 0.0 || discriminant < 0.0 {
-            return 0.5;
-        }
-        (2.0 * f0 / (b + discriminant.sqrt())).clamp(0.0, 1.0)
-    };
-    let beside = |edge: usize, to_right: bool| grid.cells_beside(edge, to_right)[0];
-    grid.x[high] - grid.x[low] + beyond(low, 1) * beside(low, false) + beyond(high, -1) * beside(high, true)
 }
