@@ -17,7 +17,7 @@ macro_rules! files {
 }
 
 /// The pages, in the order in which they are read.
-const PAGES: [(&str, &str); 29] = files![include_str:
+const PAGES: [(&str, &str); 27] = files![include_str:
     "profiles.md",
     "patches.md",
     "coupling.md",
@@ -31,8 +31,6 @@ const PAGES: [(&str, &str); 29] = files![include_str:
     "theory/rail-ends.md",
     "theory/damping.md",
     "theory/contact.md",
-    "theory/edge-consistent-rows.md",
-    "theory/kernel-correction.md",
     "theory/elastic-layer.md",
     "theory/lever-arms.md",
     "theory/lines.md",

@@ -3,7 +3,7 @@
 //! Close to a load every body answers like a half-plane. A contact solver that knows the half-plane in closed form
 //! needs of the body only the difference, which varies over the size of the body, and therefore only a polynomial of
 //! it: its ports are the displacements at a few points of the contact zone. The modes, or the finite elements, are those
-//! of the body with all its surface nodes. Derivation: `docs/theory/kernel-correction.md`.
+//! of the body with all its surface nodes. Derivation: `docs/theory/contact.md`, section 2.
 
 use super::reduction::{ReducedBasis, scale_columns};
 use crate::analytic::HalfPlane;

@@ -3,7 +3,7 @@
 //! A node that slips has the friction `μp n`; its slip is against the direction n. With `z = q − s/b`, of the shear q, the slip
 //! s and a slip b per force of the size of its own, the direction is that of z, and Newton's method on `q = μp z/|z|` leaves to
 //! the shear across n what turns it: the slip across n is `−(|z| − μp) b/μp` times that. At a solution this is `|s|/μp`, whatever
-//! b. Derivation: `docs/theory/sideways.md`.
+//! b. Derivation: `docs/theory/contact.md`, section 7.
 
 use super::states::{nearest_closed, size};
 use crate::contact::line::contact_line::{ContactLine, Slide};

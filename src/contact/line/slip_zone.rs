@@ -2,7 +2,7 @@
 //!
 //! The friction that stuck nodes leave unused grows from the place where slip begins like the pressure from an edge, so
 //! that the ratio of the two outermost ones tells that place by the formula of the edges. Whole nodes place it to a cell,
-//! and with it all the heat of light braking. Derivation: `docs/theory/profiles.md`.
+//! and with it all the heat of light braking. Derivation: `docs/theory/contact.md`, sections 4 and 9.
 
 use super::grid::ContactGrid;
 use super::state::{GridState, NodeStatus};

@@ -4,7 +4,7 @@
 //! the leading edge of the patch, the displacement has a square-root kink inside the cell; its position follows from
 //! the ratio `r` of the two outermost nodal pressures (Wiener–Hopf solution of the discrete kernel `1/(n + ½)`), and
 //! the weights are chosen so that the slip is consistent with that position. A fixed weight makes the force jump by
-//! about 0.01 μP whenever the edge passes a node.
+//! about 0.01 μP whenever the edge passes a node. Derivation: `docs/theory/contact.md`, sections 4 and 6.
 
 use super::state::{NodeStatus, for_each_patch};
 use crate::piecewise::smooth_step;
