@@ -99,10 +99,10 @@ vectorised! {
             let (above, below) = rows.split_at_mut(i * room);
             let row = &mut below[..room];
             eliminate(simd, above, &inverse[..i], row);
-            let mut largest = i;
-            for j in i + 1..n {
-                if row[j].abs() > row[largest].abs() {
-                    largest = j;
+            let (mut largest, mut size) = (i, row[i].abs());
+            for (j, value) in row[..n].iter().enumerate().skip(i + 1) {
+                if value.abs() > size {
+                    (largest, size) = (j, value.abs());
                 }
             }
             inverse[i] = 1.0 / row[largest];
@@ -121,35 +121,49 @@ vectorised! {
 /// Takes multiples of the rows `above`, which are factors already, from a row of the matrix, and leaves them in their place.
 #[inline(always)]
 fn eliminate<S: pulp::Simd>(simd: S, above: &[f64], inverse: &[f64], row: &mut [f64]) {
+    let (room, (fours, rest)) = (row.len(), inverse.as_chunks::<REGISTER>());
+    for (block, inverse) in fours.iter().enumerate() {
+        eliminate_four(simd, &above[block * REGISTER * room..], inverse, (block * REGISTER, &mut *row));
+    }
+    let first = fours.len() * REGISTER;
+    for (k, inverse) in (first..).zip(rest) {
+        let pivot = &above[k * room..][..room];
+        let factor = row[k] * inverse;
+        row[k] = factor;
+        for j in k + 1..first + REGISTER {
+            row[j] -= factor * pivot[j];
+        }
+        let (others, values) = (&pivot[first + REGISTER..], &mut row[first + REGISTER..]);
+        let less = simd.splat_f64s(-factor);
+        for (value, other) in S::as_mut_simd_f64s(values).0.iter_mut().zip(S::as_simd_f64s(others).0) {
+            *value = simd.mul_add_e_f64s(less, *other, *value);
+        }
+    }
+}
+
+/// [`eliminate`] for four rows from the column `at` a place on, at which the first of them has its pivot.
+#[inline(always)]
+fn eliminate_four<S: pulp::Simd>(simd: S, pivots: &[f64], inverse: &[f64; REGISTER], (at, row): (usize, &mut [f64])) {
     let room = row.len();
-    for (block, inverse) in inverse.chunks(REGISTER).enumerate() {
-        let at = block * REGISTER;
-        let (own, beyond) = row[at..].split_at_mut(REGISTER);
-        let mut factors = [0.0; REGISTER];
-        for (k, inverse) in inverse.iter().enumerate() {
-            let pivot = &above[(at + k) * room + at..][..REGISTER];
-            factors[k] = own[k] * inverse;
-            own[k] = factors[k];
-            for j in k + 1..REGISTER {
-                own[j] -= factors[k] * pivot[j];
-            }
-        }
-        let beyond = S::as_mut_simd_f64s(beyond).0;
-        let pivot = |k: usize| S::as_simd_f64s(&above[(at + k) * room + at + REGISTER..(at + k + 1) * room]).0;
-        let less = factors.map(|factor| simd.splat_f64s(-factor));
-        if inverse.len() == REGISTER {
-            let [first, second, third, fourth] = [pivot(0), pivot(1), pivot(2), pivot(3)];
-            for ((((value, a), b), c), d) in beyond.iter_mut().zip(first).zip(second).zip(third).zip(fourth) {
-                let sum = simd.mul_add_e_f64s(less[1], *b, simd.mul_add_e_f64s(less[0], *a, *value));
-                *value = simd.mul_add_e_f64s(less[3], *d, simd.mul_add_e_f64s(less[2], *c, sum));
-            }
-        } else {
-            for k in 0..inverse.len() {
-                for (value, other) in beyond.iter_mut().zip(pivot(k)) {
-                    *value = simd.mul_add_e_f64s(less[k], *other, *value);
-                }
-            }
-        }
+    let (pivots, from) = (&pivots[..REGISTER * room], at + REGISTER);
+    let [first, second, third] = [&pivots[at..], &pivots[room + at..], &pivots[2 * room + at..]];
+    let own = &mut row[at..from];
+    let a = own[0] * inverse[0];
+    let b = (own[1] - a * first[1]) * inverse[1];
+    let c = (own[2] - a * first[2] - b * second[2]) * inverse[2];
+    let d = (own[3] - a * first[3] - b * second[3] - c * third[3]) * inverse[3];
+    own.copy_from_slice(&[a, b, c, d]);
+    let (a, b, c, d) = (simd.splat_f64s(-a), simd.splat_f64s(-b), simd.splat_f64s(-c), simd.splat_f64s(-d));
+    let row = S::as_mut_simd_f64s(&mut row[from..]).0;
+    let (first, second) = (S::as_simd_f64s(&pivots[from..room]).0, S::as_simd_f64s(&pivots[room + from..2 * room]).0);
+    let (third, fourth) = (&pivots[2 * room + from..3 * room], &pivots[3 * room + from..]);
+    let (third, fourth) = (S::as_simd_f64s(third).0, S::as_simd_f64s(fourth).0);
+    // One place counts for all rows.
+    let count = row.len();
+    let (first, second, third, fourth) = (&first[..count], &second[..count], &third[..count], &fourth[..count]);
+    for q in 0..count {
+        let sum = simd.mul_add_e_f64s(b, second[q], simd.mul_add_e_f64s(a, first[q], row[q]));
+        row[q] = simd.mul_add_e_f64s(d, fourth[q], simd.mul_add_e_f64s(c, third[q], sum));
     }
 }
 
