@@ -224,28 +224,29 @@ impl InPatch<'_> {
         growths
     }
 
-    /// Effect of the own forces along (0) or across (1) in this direction; `None`: there is none.
-    pub fn own(&self, direction: usize) -> Option<Between> {
-        let mut own = match direction {
-            0 => *self.flexibility.between(self.line, self.line),
-            _ => *self.flexibility.across(self.line, self.line)?[0],
-        };
-        own.displacement[0][0] += self.by_reach(direction);
-        Some(own)
+    /// Effect of the forces of line number `by` in the `other` of two directions, along (0) and across (1), in one of them, but for
+    /// [`Self::by_reach`]; `None`: there is no lateral part.
+    pub fn between(&self, by: usize, [direction, other]: [usize; 2]) -> Option<&Between> {
+        match (direction, other) {
+            (0, 0) => Some(self.flexibility.between(self.line, by)),
+            _ => self
+                .flexibility
+                .across(self.line, by)
+                .map(|[across, askew]| if direction == other { across } else { askew }),
+        }
     }
 
     /// Displacement by a unit of the own force along (0) or across (1) for which the line itself gives way too much, as it
     /// reaches farther than the tables leave to it [m²/N].
-    fn by_reach(&self, direction: usize) -> f64 {
+    pub fn by_reach(&self, direction: usize) -> f64 {
         let left = self.flexibility.left(self.line, direction);
         left.map_or(0.0, |left| left.factor * (left.reach + libm::log(self.half_length) - self.reaches[direction]))
     }
 
-    /// Powers of a place on the line, see [`powers`].
-    pub fn powers(&self, x: f64) -> ByPowers {
-        let t = x / self.half_length;
-        let depth = || LN_2 + (self.reaches[0] - libm::log(self.half_length)).max(0.0);
-        powers(t, if t.abs() > 1.0 { depth() } else { 1.0 })
+    /// Powers of places on the line, see [`powers`].
+    pub fn powers(&self, x: &[f64]) -> impl Iterator<Item = ByPowers> {
+        let (length, depth) = (self.half_length, LN_2 + (self.reaches[0] - libm::log(self.half_length)).max(0.0));
+        x.iter().map(move |x| powers(x / length, depth))
     }
 }
 

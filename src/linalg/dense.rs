@@ -1,6 +1,6 @@
 //! Small dense matrices: systems solved over and over in buffers that are kept, and exact symmetry.
 
-use super::vectorised::vectorised;
+use super::vectorised::{BLOCK, by_blocks, load, vectorised};
 use nalgebra::DMatrix;
 
 /// A square system `A x = b`, filled row by row and solved by LU factorisation with partial pivoting: unknowns change
@@ -16,8 +16,8 @@ pub struct DenseSystem {
     rows: Vec<f64>,
     rhs: Vec<f64>,
     permuted: Vec<f64>,
-    /// Row of the pivot, zero up to it.
-    pivots: Vec<f64>,
+    /// Inverses of the pivots.
+    inverse: Vec<f64>,
     /// Unknowns in the order of the columns of `A Q`.
     order: Vec<usize>,
 }
@@ -59,9 +59,9 @@ impl DenseSystem {
     pub fn factorise(&mut self) -> bool {
         self.order.clear();
         self.order.extend(0..self.size);
-        self.pivots.clear();
-        self.pivots.resize(room(self.size), 0.0);
-        factorise(&mut self.rows, &mut self.pivots, &mut self.order)
+        self.inverse.clear();
+        self.inverse.resize(room(self.size), 0.0);
+        factorise(&mut self.rows, &mut self.inverse, &mut self.order)
     }
 
     /// `x ← A⁻¹ x` with the factors of [`Self::factorise`]; whether the result is finite.
@@ -91,45 +91,79 @@ fn room(size: usize) -> usize {
 const REGISTER: usize = 4;
 
 vectorised! {
-    /// Replaces a matrix, given by rows, by its factors, and exchanges the items of `order` with its columns; `pivots` is memory
-    /// for a row of zeros. False: it is singular or not finite.
-    fn factorise<'a, S>(simd, rows: &'a mut [f64], pivots: &'a mut [f64], order: &'a mut [usize]) -> bool {
-        let (n, room) = (order.len(), pivots.len());
-        for k in 0..n {
-            let row = &rows[k * room..][..n];
-            let mut largest = k;
-            for j in k + 1..n {
-                if row[j].abs() > row[largest].abs() {
-                    largest = j;
+    /// Replaces a matrix, given by rows, by its factors, and exchanges the items of `order` with its columns; `inverse` is memory
+    /// for the inverses of the pivots. False: it is singular or not finite.
+    fn factorise<'a, S>(simd, rows: &'a mut [f64], inverse: &'a mut [f64], order: &'a mut [usize]) -> bool {
+        let (n, room) = (order.len(), inverse.len());
+        for i in 0..n {
+            let (above, below) = rows.split_at_mut(i * room);
+            let row = &mut below[..room];
+            eliminate(simd, above, &inverse[..i], row);
+            let (mut largest, mut size) = (i, row[i].abs());
+            for (j, value) in row[..n].iter().enumerate().skip(i + 1) {
+                if value.abs() > size {
+                    (largest, size) = (j, value.abs());
                 }
             }
-            if largest > k {
-                rows.chunks_exact_mut(room).for_each(|row| row.swap(k, largest));
-                order.swap(k, largest);
-            }
-            let (above, below) = rows.split_at_mut((k + 1) * room);
-            let row = &above[k * room..][..room];
-            let over = 1.0 / row[k];
-            if !over.is_finite() {
+            inverse[i] = 1.0 / row[largest];
+            if !inverse[i].is_finite() {
                 return false;
             }
-            // Whole registers from the one on in which the pivot's neighbour lies: zeros leave factors beside it as they are.
-            let from = (k + 1) / REGISTER * REGISTER;
-            pivots[k + 1..].copy_from_slice(&row[k + 1..]);
-            pivots[k] = 0.0;
-            let (others, others_rest) = S::as_simd_f64s(&pivots[from.min(room)..]);
-            for row in below.chunks_exact_mut(room) {
-                let factor = row[k] * over;
-                row[k] = factor;
-                let (values, values_rest) = S::as_mut_simd_f64s(&mut row[from..]);
-                let less = simd.splat_f64s(-factor);
-                for (value, other) in values.iter_mut().zip(others) {
-                    *value = simd.mul_add_e_f64s(less, *other, *value);
-                }
-                values_rest.iter_mut().zip(others_rest).for_each(|(value, other)| *value -= factor * other);
+            if largest > i {
+                rows.chunks_exact_mut(room).for_each(|row| row.swap(i, largest));
+                order.swap(i, largest);
             }
         }
         true
+    }
+}
+
+/// Takes multiples of the rows `above`, which are factors already, from a row of the matrix, and leaves them in their place.
+#[inline(always)]
+fn eliminate<S: pulp::Simd>(simd: S, above: &[f64], inverse: &[f64], row: &mut [f64]) {
+    let (room, (fours, rest)) = (row.len(), inverse.as_chunks::<REGISTER>());
+    for (block, inverse) in fours.iter().enumerate() {
+        eliminate_four(simd, &above[block * REGISTER * room..], inverse, (block * REGISTER, &mut *row));
+    }
+    let first = fours.len() * REGISTER;
+    for (k, inverse) in (first..).zip(rest) {
+        let pivot = &above[k * room..][..room];
+        let factor = row[k] * inverse;
+        row[k] = factor;
+        for j in k + 1..first + REGISTER {
+            row[j] -= factor * pivot[j];
+        }
+        let (others, values) = (&pivot[first + REGISTER..], &mut row[first + REGISTER..]);
+        let less = simd.splat_f64s(-factor);
+        for (value, other) in S::as_mut_simd_f64s(values).0.iter_mut().zip(S::as_simd_f64s(others).0) {
+            *value = simd.mul_add_e_f64s(less, *other, *value);
+        }
+    }
+}
+
+/// [`eliminate`] for four rows from the column `at` a place on, at which the first of them has its pivot.
+#[inline(always)]
+fn eliminate_four<S: pulp::Simd>(simd: S, pivots: &[f64], inverse: &[f64; REGISTER], (at, row): (usize, &mut [f64])) {
+    let room = row.len();
+    let (pivots, from) = (&pivots[..REGISTER * room], at + REGISTER);
+    let [first, second, third] = [&pivots[at..], &pivots[room + at..], &pivots[2 * room + at..]];
+    let own = &mut row[at..from];
+    let a = own[0] * inverse[0];
+    let b = (own[1] - a * first[1]) * inverse[1];
+    let c = (own[2] - a * first[2] - b * second[2]) * inverse[2];
+    let d = (own[3] - a * first[3] - b * second[3] - c * third[3]) * inverse[3];
+    own.copy_from_slice(&[a, b, c, d]);
+    let (a, b, c, d) = (simd.splat_f64s(-a), simd.splat_f64s(-b), simd.splat_f64s(-c), simd.splat_f64s(-d));
+    let row = S::as_mut_simd_f64s(&mut row[from..]).0;
+    let (first, second) = (S::as_simd_f64s(&pivots[from..room]).0, S::as_simd_f64s(&pivots[room + from..2 * room]).0);
+    let (third, fourth) = (&pivots[2 * room + from..3 * room], &pivots[3 * room + from..]);
+    let (third, fourth) = (S::as_simd_f64s(third).0, S::as_simd_f64s(fourth).0);
+    // One place counts for all rows.
+    let count = row.len();
+    let (first, second, third, fourth) = (&first[..count], &second[..count], &third[..count], &fourth[..count]);
+    for q in 0..count {
+        let sum = simd.mul_add_e_f64s(b, second[q], simd.mul_add_e_f64s(a, first[q], row[q]));
+        row[q] = simd.mul_add_e_f64s(d, fourth[q], simd.mul_add_e_f64s(c, third[q], sum));
     }
 }
 
@@ -156,28 +190,48 @@ vectorised! {
 vectorised! {
     /// `X ← U⁻¹ L⁻¹ X` with the factors of a matrix, both by rows.
     fn substitute_all<'a, S, const D: usize, const N: usize>(
-        _simd,
+        simd,
         factors: &'a [f64],
         x: &'a mut [[[f64; N]; D]],
     ) {
         let (n, room) = (x.len(), room(x.len()));
-        let take = |row: &mut [[f64; N]; D], factors: &[f64], others: &[[[f64; N]; D]]| {
-            for (factor, other) in factors.iter().zip(others) {
-                let row = row.as_flattened_mut().iter_mut().zip(other.as_flattened());
-                row.for_each(|(value, other)| *value -= factor * other);
-            }
-        };
         for i in 0..n {
             let (above, below) = x.split_at_mut(i);
-            take(&mut below[0], &factors[i * room..][..i], above);
+            take(simd, &factors[i * room..][..i], above.as_flattened().as_flattened(), below[0].as_flattened_mut());
         }
         for i in (0..n).rev() {
             let (row, (above, below)) = (&factors[i * room..][..n], x.split_at_mut(i + 1));
-            take(&mut above[i], &row[i + 1..], below);
+            let solved = above[i].as_flattened_mut();
+            take(simd, &row[i + 1..], below.as_flattened().as_flattened(), solved);
             let over = 1.0 / row[i];
-            above[i].as_flattened_mut().iter_mut().for_each(|value| *value *= over);
+            solved.iter_mut().for_each(|value| *value *= over);
         }
     }
+}
+
+/// Takes multiples of the rows `others` from a row.
+#[inline(always)]
+fn take<S: pulp::Simd>(simd: S, factors: &[f64], others: &[f64], row: &mut [f64]) {
+    let width = row.len();
+    by_blocks!(width / S::F64_LANES, take_block::<S>(simd, factors, others, row));
+    for at in width / S::F64_LANES * S::F64_LANES..width {
+        row[at] -= factors.iter().enumerate().map(|(j, factor)| factor * others[j * width + at]).sum::<f64>();
+    }
+}
+
+/// [`take`] for `B` registers from the one `at` a place on.
+#[inline(always)]
+fn take_block<S: pulp::Simd, const B: usize>(simd: S, factors: &[f64], others: &[f64], row: &mut [f64], at: usize) {
+    let (first, width, length) = (at * S::F64_LANES, row.len(), B * S::F64_LANES);
+    let own = &mut S::as_mut_simd_f64s(&mut row[first..][..length]).0[..B];
+    let mut sums: [S::f64s; B] = load(own, 0);
+    for (j, factor) in factors.iter().enumerate() {
+        let (less, other) = (simd.splat_f64s(-factor), S::as_simd_f64s(&others[j * width + first..][..length]).0);
+        for (sum, other) in sums.iter_mut().zip(load::<_, B>(other, 0)) {
+            *sum = simd.mul_add_e_f64s(less, other, *sum);
+        }
+    }
+    own.copy_from_slice(&sums);
 }
 
 /// Removes the round-off between `a_ij` and `a_ji`.

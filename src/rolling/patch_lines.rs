@@ -249,18 +249,17 @@ mod tests {
         patch.lay_out(load, &mut lines);
         let (alone, flexibility) = (logarithms(&places, spacing), patch.flexibility().unwrap());
         let in_patch: Vec<_> = lines.iter().enumerate().map(|(k, line)| line.layout.in_patch(flexibility, k)).collect();
-        let powers: Vec<_> = in_patch.iter().flat_map(|line| places.iter().map(|x| line.powers(*x))).collect();
+        let powers: Vec<_> = in_patch.iter().flat_map(|line| line.powers(&places)).collect();
         let (nodes, directions) = (powers.len(), if flexibility.is_sideways() { 2 } else { 1 });
         let entry = |a: usize, b: usize| {
             let ([to, of], [a, b]) = ([a / nodes, b / nodes], [a % nodes, b % nodes]);
             let ([at, by], [i, j]) = ([a / places.len(), b / places.len()], [a % places.len(), b % places.len()]);
             let kernel = lines[at].layout.kernel.along(2 * to);
             let own = if (at, to) == (by, of) { 2.0 * kernel.displacement(alone[(i, j)]) } else { 0.0 };
-            let between = match (to == of, at == by) {
-                (true, true) => in_patch[at].own(to).unwrap(),
-                (true, false) if to == 0 => *flexibility.between(at, by),
-                _ => *flexibility.across(at, by).unwrap()[usize::from(to != of)],
-            };
+            let mut between = *in_patch[at].between(by, [to, of]).unwrap();
+            if (at, to) == (by, of) {
+                between.displacement[0][0] += in_patch[at].by_reach(to);
+            }
             let product =
                 |polynomial: &[f64; 5]| polynomial.iter().zip(&powers[a]).map(|(c, power)| c * power).sum::<f64>();
             let by_moments = between.displacement.iter().zip(&powers[b]).map(|(by, moment)| moment * product(by));

@@ -3,7 +3,6 @@
 use crate::axes::{Axis, PerAxis};
 use crate::contact::brake::{self, BrakeState};
 use crate::contact::line::contact_line::ContactLine;
-use crate::contact::line::rows::AffineRow;
 use crate::contact::problem::{AxisDrive, RigidMotion};
 use crate::linalg::POINTS;
 
@@ -14,7 +13,7 @@ pub(super) struct Axes<'a> {
     brakes: PerAxis<BrakeState>,
 }
 
-/// A linear equation without its coefficients of the lines' own forces.
+/// The balance of an axis without its coefficients of the lines' own forces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Equation {
     /// Coefficients of the forces of all lines on the ports.
@@ -72,13 +71,9 @@ impl<'a> Axes<'a> {
         PerAxis::from_fn(|axis| self.seeks(axis).then(|| self.rigid[axis].gain * motions[axis]))
     }
 
-    /// A row of the line, set to zero, as an equation: accelerations that are sought follow from the motions.
-    pub fn equation(&self, row: AffineRow) -> Equation {
-        let mut motions = row.motions;
-        for axis in Axis::ALL.into_iter().filter(|&axis| self.seeks(axis)) {
-            motions[axis] += self.rigid[axis].gain * row.accelerations[axis];
-        }
-        Equation { ports: row.ports, motions, constant: row.constant }
+    /// Accelerations of the motions by the motions themselves, see [`Self::gain`].
+    pub fn gains(&self) -> PerAxis<f64> {
+        PerAxis::from_fn(|axis| self.gain(axis))
     }
 
     /// Equation of a motion that is sought: its balance, or rest where a brake holds it.
@@ -138,13 +133,12 @@ impl<'a> Axes<'a> {
     fn value(&self, (axis, balance): (Axis, bool), equation: &Equation, lines: &[ContactLine]) -> f64 {
         let Some(first) = lines.first() else { return equation.constant };
         let of_line = |line: &ContactLine| {
-            let loaded = (0..line.grid.len()).filter(|&i| line.is_loaded(i));
             let of_node = |i: usize| {
                 let (normal, shear) = line.pull_of_forces(axis, i);
                 let of_shear = shear.iter().zip(line.shear(i)).map(|(by, force)| by * force).sum::<f64>();
                 normal * line.normal(i) + of_shear
             };
-            line.problem.share * loaded.map(of_node).sum::<f64>()
+            line.problem.share * line.loaded().map(of_node).sum::<f64>()
         };
         let of_forces = if balance { lines.iter().map(of_line).sum() } else { 0.0 };
         let of_ports: f64 = equation.ports.iter().zip(first.iterate.all.contact.iter()).map(|(by, f)| by * f).sum();

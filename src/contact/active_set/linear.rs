@@ -5,13 +5,18 @@
 //! that are sought follow from one small system: any number of lines costs as often as much as one.
 
 use super::axes::Axes;
-use super::own_forces::{ACROSS, ALONG, ANGLE, FELT, Felt, KNOWN, MOTIONS, OPENED, OwnForces, PORTS, add};
+use super::own_forces::{
+    ACROSS, ALONG, ANGLE, BODIES, FELT, Felt, KNOWN, LOAD, MOMENTS, MOTIONS, OPENED, OwnForces, PULL, SHEAR,
+    SUMS_ACROSS, SUMS_ALONG, TURN, add, product,
+};
 use super::unknowns::Unknowns;
 use crate::axes::Axis;
 use crate::contact::error::ContactError;
-use crate::contact::flexibility::ByMoments;
 use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::rows::{BODY_CAUSES, BodyRows};
+use crate::linalg::vectorised::{add_columns, dot, vectorised};
 use crate::linalg::{DenseSystem, POINTS};
+use std::ops::Range;
 
 /// Forces on the ports.
 const ON_PORTS: usize = 2 * POINTS;
@@ -19,8 +24,8 @@ const ON_PORTS: usize = 2 * POINTS;
 /// Solution of linear problems, and its memory.
 #[derive(Default)]
 pub(super) struct LinearSolver {
-    along: Solver<ALONG>,
-    across: Solver<ACROSS>,
+    along: Solver<ALONG, SUMS_ALONG>,
+    across: Solver<ACROSS, SUMS_ACROSS>,
 }
 
 impl LinearSolver {
@@ -39,10 +44,10 @@ impl LinearSolver {
     }
 }
 
-/// Solution of linear problems in which what a line feels has C columns.
+/// Solution of linear problems in which what a line feels has C columns, and what it does N.
 #[derive(Default)]
-struct Solver<const C: usize> {
-    lines: Vec<OwnForces<C>>,
+struct Solver<const C: usize, const N: usize> {
+    lines: Vec<OwnForces<C, N>>,
     /// Equations of the small system, row by row, and the values of its unknowns where they are zero, with their signs
     /// reversed.
     rows: Vec<f64>,
@@ -52,7 +57,7 @@ struct Solver<const C: usize> {
     system: DenseSystem,
 }
 
-/// Numbering of the unknowns of the small system: forces on the ports, moments and rim angle of every line, motions.
+/// Numbering of the unknowns of the small system: forces on the ports and motions, moments and rim angle of every line.
 #[derive(Clone, Copy)]
 struct Numbering {
     lines: usize,
@@ -62,20 +67,26 @@ struct Numbering {
 }
 
 impl Numbering {
-    fn moment(self, line: usize, direction: usize, k: usize) -> usize {
-        ON_PORTS + (line * self.directions + direction) * POINTS + k
+    fn motions(self) -> Range<usize> {
+        ON_PORTS..ON_PORTS + self.motions
+    }
+
+    /// Moments of all lines in all directions.
+    fn moments(self) -> Range<usize> {
+        let first = ON_PORTS + self.motions;
+        first..first + self.lines * self.directions * POINTS
+    }
+
+    fn moment(self, line: usize, direction: usize) -> usize {
+        self.moments().start + (line * self.directions + direction) * POINTS
     }
 
     fn angle(self, line: usize) -> usize {
-        self.moment(self.lines, 0, 0) + line
-    }
-
-    fn motion(self, number: usize) -> usize {
-        self.angle(self.lines) + number
+        self.moments().end + line
     }
 
     fn len(self) -> usize {
-        self.motion(self.motions)
+        self.angle(self.lines)
     }
 }
 
@@ -85,15 +96,16 @@ struct Small<'a, 'b> {
     axes: &'a Axes<'a>,
     sought: &'a [Axis],
     places: Numbering,
-    /// Coefficients of the slip that every line feels in every direction by the moments of every line in every direction.
-    between: Vec<ByMoments>,
-    /// Gaps that unit forces on the ports open at the points, those that sought motions open, and the places of the points.
-    by_ports: [[f64; ON_PORTS]; POINTS],
-    by_motions: [[f64; Axis::COUNT]; POINTS],
+    /// Coefficients of the slip that every line feels in every direction, one after the other and each by the moments of every
+    /// line in every direction.
+    between: Vec<f64>,
+    /// What the bodies do to every line.
+    bodies: Vec<BodyRows>,
+    /// Places of their points \[m].
     points: [f64; POINTS],
 }
 
-impl<const C: usize> Solver<C> {
+impl<const C: usize, const N: usize> Solver<C, N> {
     /// Solves a linear problem and gives the lines their forces and motions. With `given` tangential forces at the candidates
     /// of every line, pressures alone are sought, and of the motions the height.
     #[inline(never)]
@@ -115,7 +127,7 @@ impl<const C: usize> Solver<C> {
         self.write(&small);
         let solution = self.solution().ok_or_else(singular)?;
         let felt: Vec<Felt<C>> = (0..small.places.lines).map(|k| small.felt(k, &solution)).collect();
-        let changes = &solution[small.places.motion(0)..];
+        let changes = &solution[small.places.motions()];
         for ((own, line), felt) in self.lines.iter().zip(&mut *lines).zip(&felt) {
             line.state.forces.fill(0.0);
             if given.is_none() {
@@ -141,37 +153,28 @@ impl<const C: usize> Solver<C> {
         self.rows.resize(size * size, 0.0);
         self.constants.clear();
         self.constants.resize(size, 0.0);
-        for k in 0..small.places.angle(0) {
-            self.rows[k * size + k] = 1.0;
-        }
-        for (k, (own, line)) in self.lines.iter().zip(lines).enumerate() {
-            let (nodes, grid) = (&own.nodes, line.grid);
-            let at_points = |place: usize| grid.values[nodes[place] + grid.guard];
-            let on_points = [own.sums_of_shear(0, at_points), own.sums_of_pressures(at_points)];
-            for (component, sums) in on_points.iter().enumerate() {
-                for (point, sum) in sums.iter().enumerate() {
-                    let at = row(&mut self.rows, &mut self.constants, 2 * point + component);
-                    small.add(k, sum, -line.problem.share, at);
-                }
-            }
-            for direction in 0..small.places.directions {
-                for (n, moment) in own.moments(direction).iter().enumerate() {
-                    let at = small.places.moment(k, direction, n);
-                    small.add(k, moment, -1.0, row(&mut self.rows, &mut self.constants, at));
-                }
-            }
-            let rim = &line.iterate.rim;
-            let own_angle = own.sum(|place| {
-                let node = nodes[place] + grid.guard;
-                (rim.normal[node], [rim.tangential[node], 0.0])
-            });
-            let at = small.places.angle(k);
-            small.add(k, &own_angle, -1.0, row(&mut self.rows, &mut self.constants, at));
-            small.add_angle(k, row(&mut self.rows, &mut self.constants, at));
-        }
+        (0..ON_PORTS).chain(small.places.moments()).for_each(|k| self.rows[k * size + k] = 1.0);
         for (number, &axis) in small.sought.iter().enumerate() {
-            let at = small.places.motion(number);
-            small.add_balance(axis, &self.lines, row(&mut self.rows, &mut self.constants, at));
+            small.add_balance(axis, row(&mut self.rows, &mut self.constants, ON_PORTS + number));
+        }
+        for (k, (own, line)) in self.lines.iter_mut().zip(lines).enumerate() {
+            let (sums, share) = (own.sums(line, small.sought), line.problem.share);
+            let mut add = |sum: usize, factor: f64, at: usize| {
+                small.add(k, &sums[sum], factor, row(&mut self.rows, &mut self.constants, at));
+            };
+            for point in 0..POINTS {
+                add(SHEAR.start + point, -share, 2 * point);
+                add(LOAD.start + point, -share, 2 * point + 1);
+            }
+            for number in (0..small.sought.len()).filter(|&number| !small.axes.holds(small.sought[number])) {
+                add(PULL.start + number, share, ON_PORTS + number);
+            }
+            for (direction, moments) in MOMENTS.into_iter().enumerate().take(small.places.directions) {
+                moments.enumerate().for_each(|(n, moment)| add(moment, -1.0, small.places.moment(k, direction) + n));
+            }
+            let at = small.places.angle(k);
+            add(TURN, -1.0, at);
+            small.add_angle(k, row(&mut self.rows, &mut self.constants, at));
         }
     }
 
@@ -183,7 +186,8 @@ impl<const C: usize> Solver<C> {
         units.resize(size, 0.0);
         for row in rows.chunks_exact(size) {
             let largest = row.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-            units.iter_mut().zip(row).for_each(|(unit, value)| *unit = unit.max(value.abs() / largest));
+            let over = 1.0 / largest;
+            units.iter_mut().zip(row).for_each(|(unit, value)| *unit = unit.max(value.abs() * over));
         }
         units.iter_mut().for_each(|unit| *unit = if *unit > 0.0 { 1.0 / *unit } else { 1.0 });
         for row in rows.chunks_exact_mut(size) {
@@ -210,48 +214,30 @@ impl<'a, 'b> Small<'a, 'b> {
     fn new(lines: &'a [ContactLine<'b>], axes: &'a Axes<'a>, sought: &'a [Axis]) -> Self {
         let felt = lines.iter().all(|line| line.problem.patch.is_some());
         let directions = if felt { lines[0].state.directions() } else { 0 };
-        let places = Numbering { lines: lines.len(), directions, motions: sought.len() };
-        let each = |at: usize| (0..directions).map(move |direction| (at, direction));
-        let all = || (0..lines.len()).flat_map(each);
-        let pairs = all().flat_map(|(at, of)| all().map(move |(by, other)| (at, of, by, other)));
-        let between = pairs.filter_map(|(at, of, by, other)| lines[at].slip_by_moments(of, by, other)).collect();
-        let (bodies, points) = (&lines[0].problem.bodies, lines[0].grid.points.nodes());
-        let lifts = |axis: Axis, point: usize| {
-            let rigid = if axis == Axis::Height { 1.0 } else { 0.0 };
-            rigid + axes.gain(axis) * bodies.inertial[(2 * point + 1, axis.number())]
-        };
-        let by_ports = |point: usize| std::array::from_fn(|port| bodies.shared.relative[(2 * point + 1, port)]);
-        let by_motions =
-            |point: usize| std::array::from_fn(|number| sought.get(number).map_or(0.0, |axis| lifts(*axis, point)));
-        let (by_ports, by_motions) = (std::array::from_fn(by_ports), std::array::from_fn(by_motions));
-        Self { lines, axes, sought, places, between, by_ports, by_motions, points }
+        let (places, mut between) = (Numbering { lines: lines.len(), directions, motions: sought.len() }, Vec::new());
+        for (line, direction) in lines.iter().flat_map(|line| (0..directions).map(move |direction| (line, direction))) {
+            line.slips_by_moments(direction, [lines.len(), directions], &mut between);
+        }
+        let bodies = lines.iter().map(|line| line.body_rows(sought, axes.gains())).collect();
+        Self { lines, axes, sought, places, between, bodies, points: lines[0].grid.points.nodes() }
     }
 
     /// Adds `factor` times an affine function of what line `k` feels to an equation.
     fn add<const C: usize>(&self, k: usize, of: &Felt<C>, factor: f64, (row, constant): SmallRow) {
-        let places = self.places;
+        let (places, mut by_bodies) = (self.places, [0.0; BODY_CAUSES]);
         *constant += factor * of[KNOWN];
-        for (point, opened) in of[OPENED].iter().map(|opened| factor * opened).enumerate() {
-            add(opened, &self.by_ports[point], &mut row[..ON_PORTS]);
-            row[places.angle(k)] -= opened * self.points[point];
-            add(opened, &self.by_motions[point], &mut row[places.motion(0)..]);
-        }
-        add(factor, &of[PORTS], &mut row[..ON_PORTS]);
-        row[places.angle(k)] += factor * of[ANGLE];
-        add(factor, &of[MOTIONS], &mut row[places.motion(0)..]);
-        for direction in 0..places.directions {
-            let felt = &of[FELT[direction].clone()];
-            for (at, between) in self.between_of(k, direction).as_flattened().iter().enumerate() {
-                let by_moment: f64 = felt.iter().zip(between).map(|(by, slip)| by * slip).sum();
-                row[places.moment(0, 0, 0) + at] += factor * by_moment;
-            }
-        }
+        add_rows(&of[BODIES], &self.bodies[k], &mut by_bodies);
+        add(factor, &by_bodies, &mut row[..places.moments().start]);
+        row[places.angle(k)] += factor * (of[ANGLE] - product(&of[OPENED], &self.points));
+        add(factor, &of[MOTIONS], &mut row[places.motions()]);
+        let felt = &of[FELT[0].start..][..places.directions * POINTS];
+        add_columns(factor, self.between_of(k), places.moments().len(), felt, &mut row[places.moments()]);
     }
 
-    /// Coefficients of the slip that line `k` feels in a direction, by the moments of all lines in all directions.
-    fn between_of(&self, k: usize, direction: usize) -> &[ByMoments] {
-        let Numbering { lines, directions, .. } = self.places;
-        &self.between[(k * directions + direction) * lines * directions..][..lines * directions]
+    /// Coefficients of the slips that line `k` feels, each by the moments of all lines in all directions.
+    fn between_of(&self, k: usize) -> &[f64] {
+        let count = self.places.moments().len() * self.places.directions * POINTS;
+        &self.between[k * count..][..count]
     }
 
     /// Adds what the rim angle of line `k` has by bodies and motions to its equation.
@@ -264,46 +250,45 @@ impl<'a, 'b> Small<'a, 'b> {
         let by_motion = |axis: Axis| self.axes.gain(axis) * rim.accelerations[axis];
         *constant -= Axis::ALL.into_iter().map(|axis| by_motion(axis) * line.traction.rigid[axis]).sum::<f64>();
         for (number, &axis) in self.sought.iter().enumerate() {
-            row[self.places.motion(number)] -= by_motion(axis);
+            row[ON_PORTS + number] -= by_motion(axis);
         }
     }
 
-    /// Adds the balance of a sought motion, or rest where a brake holds it.
-    fn add_balance<const C: usize>(&self, axis: Axis, own: &[OwnForces<C>], (row, constant): SmallRow) {
+    /// Adds the balance of a sought motion without the pull of the lines, or rest where a brake holds it.
+    fn add_balance(&self, axis: Axis, (row, constant): SmallRow) {
         let balance = self.axes.row(axis, self.lines);
         *constant += balance.constant + balance.motions.dot(self.lines[0].traction.rigid);
-        row[..ON_PORTS].iter_mut().zip(balance.ports).for_each(|(value, by)| *value += by);
+        add(1.0, &balance.ports, &mut row[..ON_PORTS]);
         for (number, &axis) in self.sought.iter().enumerate() {
-            row[self.places.motion(number)] += balance.motions[axis];
-        }
-        if self.axes.holds(axis) {
-            return;
-        }
-        for (k, (own, line)) in own.iter().zip(self.lines).enumerate() {
-            let sum = own.sum(|place| line.pull_of_forces(axis, own.nodes[place]));
-            self.add(k, &sum, line.problem.share, (&mut *row, &mut *constant));
+            row[ON_PORTS + number] += balance.motions[axis];
         }
     }
 
     /// Numbers that line `k` feels in a solution.
     fn felt<const C: usize>(&self, k: usize, solution: &[f64]) -> Felt<C> {
         let (places, mut felt) = (self.places, [0.0; C]);
-        let (ports, motions, angle) = (&solution[..ON_PORTS], &solution[places.motion(0)..], solution[places.angle(k)]);
+        let (causes, angle) = (&solution[..places.moments().start], solution[places.angle(k)]);
         felt[KNOWN] = 1.0;
-        felt[PORTS].copy_from_slice(ports);
+        felt[BODIES].iter_mut().zip(&self.bodies[k]).for_each(|(felt, by)| *felt = product(causes, by));
+        felt[OPENED].iter_mut().zip(self.points).for_each(|(opened, x)| *opened -= x * angle);
         felt[ANGLE] = angle;
-        felt[MOTIONS][..motions.len()].copy_from_slice(motions);
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        for (point, x) in self.points.into_iter().enumerate() {
-            let opened = product(&self.by_ports[point], ports) + product(&self.by_motions[point], motions);
-            felt[OPENED.start + point] = opened - x * angle;
-        }
-        for direction in 0..places.directions {
-            let moments = &solution[places.moment(0, 0, 0)..places.angle(0)];
-            for (moment, by_moment) in moments.iter().zip(self.between_of(k, direction).as_flattened()) {
-                add(*moment, by_moment, &mut felt[FELT[direction].clone()]);
-            }
+        felt[MOTIONS][..places.motions].copy_from_slice(&solution[places.motions()]);
+        let moments = &solution[places.moments()];
+        if !moments.is_empty() {
+            let of_line = felt[FELT[0].start..].iter_mut().zip(self.between_of(k).chunks_exact(moments.len()));
+            of_line.for_each(|(felt, by)| *felt = dot(moments, by));
         }
         felt
+    }
+}
+
+vectorised! {
+    /// Adds rows, times factors.
+    fn add_rows<'a, S>(simd, factors: &'a [f64], rows: &'a BodyRows, sum: &'a mut [f64; BODY_CAUSES]) {
+        for (q, sum) in S::as_mut_simd_f64s(sum).0.iter_mut().enumerate() {
+            for (factor, row) in factors.iter().zip(rows) {
+                *sum = simd.mul_add_e_f64s(simd.splat_f64s(*factor), S::as_simd_f64s(row).0[q], *sum);
+            }
+        }
     }
 }

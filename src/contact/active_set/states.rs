@@ -222,11 +222,12 @@ fn is_overloaded(line: &ContactLine) -> bool {
 /// True if the stuck nodes do not slip, round-off apart: their rows are linearised in V and Ω. In short steps of slow
 /// wheels the rate of the displacements, new less known ones over the step, has the larger round-off.
 pub(super) fn sticks(line: &ContactLine) -> bool {
-    let rate = line.problem.time.a0 * line.state.surface.iter().map(|u| u.amax()).fold(0.0, f64::max);
-    let round_off = SLIP_ROUND_OFF[0] * line.speed() + SLIP_ROUND_OFF[1] * rate + SLIP_ROUND_OFF[2];
+    let rate = || line.problem.time.a0 * line.state.surface.iter().map(|u| u.amax()).fold(0.0, f64::max);
+    let round_off = SLIP_ROUND_OFF[0] * line.speed() + SLIP_ROUND_OFF[2];
     let stuck = |slip: &Vec<f64>| {
         let stuck = line.state.status.iter().zip(slip).filter(|(status, _)| status.is_stuck());
         stuck.map(|(_, slip)| slip.abs()).fold(0.0, f64::max)
     };
-    line.state.slip.iter().map(stuck).fold(0.0, f64::max) <= round_off
+    let slip = line.state.slip.iter().map(stuck).fold(0.0, f64::max);
+    slip <= round_off || slip <= round_off + SLIP_ROUND_OFF[1] * rate()
 }

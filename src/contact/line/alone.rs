@@ -21,7 +21,7 @@ pub struct OwnDisplacement {
     /// Across them. A body below its surface moves the other way.
     pub across: DVector<f64>,
     forces: Vec<f64>,
-    displaced: Vec<f64>,
+    displaced: [Vec<f64>; 2],
 }
 
 impl Alone<'_> {
@@ -48,17 +48,22 @@ impl Alone<'_> {
         for values in [&mut *along, &mut *across].into_iter().filter(|values| values.len() != forces.len()) {
             *values = DVector::zeros(forces.len());
         }
-        for component in 0..2 {
+        let (forces, mut sums, mut before) = (forces.as_chunks::<2>().0, [0.0; 2], [0.0; 2]);
+        for (component, displaced) in displaced.iter_mut().enumerate() {
             of_component.clear();
-            of_component.extend(forces.as_chunks::<2>().0.iter().map(|force| force[component]));
+            of_component.extend(forces.iter().map(|force| force[component]));
+            sums[component] = of_component.iter().sum();
             self.displace(component, 0, of_component, displaced);
-            let nodes = along.as_mut_slice().as_chunks_mut::<2>().0;
-            nodes.iter_mut().zip(&*displaced).for_each(|(node, moved)| node[component] = *moved);
+        }
+        let (along, across) =
+            (along.as_mut_slice().as_chunks_mut::<2>().0, across.as_mut_slice().as_chunks_mut::<2>().0);
+        let ([x, y], half) = (&*displaced, 0.5 * self.kernel.coupling);
+        for ((((along, across), force), x), y) in along.iter_mut().zip(across).zip(forces).zip(x).zip(y) {
+            *along = [*x, *y];
             // Pressure draws the surface towards it, and tangential forces raise it before them.
-            let coupling = if component == 1 { -self.kernel.coupling } else { self.kernel.coupling };
-            let nodes = across.as_mut_slice().as_chunks_mut::<2>().0;
-            let moved = signs(of_component).map(|sign| 0.5 * coupling * sign);
-            nodes.iter_mut().zip(moved).for_each(|(node, moved)| node[1 - component] = moved);
+            let signs = [2.0 * before[0] + force[0] - sums[0], 2.0 * before[1] + force[1] - sums[1]];
+            *across = [-half * signs[1], half * signs[0]];
+            before = [before[0] + force[0], before[1] + force[1]];
         }
     }
 }

@@ -72,6 +72,8 @@ pub struct LineIterate {
     pub own_slip: f64,
     /// Shear to which the line is drawn, if it is.
     pub drawn: Option<Drawn>,
+    /// Displacement of the ports of the body at hand by forces and accelerations that are sought \[m].
+    pub moved: DVector<f64>,
     /// Displacement by the own flexibility.
     pub own: OwnDisplacement,
     /// Displacement of the wheel less that of the rail by the line's own lateral forces at all nodes \[m].
@@ -260,6 +262,11 @@ impl<'a> ContactLine<'a> {
     /// True if candidate `i` carries a force.
     pub fn is_loaded(&self, i: usize) -> bool {
         self.normal(i) != 0.0 || self.shear(i) != [0.0; 2]
+    }
+
+    /// Candidates that carry a force.
+    pub fn loaded(&self) -> impl Iterator<Item = usize> {
+        (0..self.grid.len()).filter(|&i| self.is_loaded(i))
     }
 
     /// Friction force that candidate `i` can bear over its normal force \[1].

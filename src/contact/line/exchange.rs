@@ -45,7 +45,10 @@ pub fn forces(lines: &mut [ContactLine]) {
 /// Gives lines of a patch what the forces of all of them along and across do.
 fn fields(lines: &mut [ContactLine]) {
     for line in &mut *lines {
-        line.iterate.moments = [0, 1].map(|direction| line.moments_of_shear(direction));
+        line.iterate.moments = Default::default();
+        for direction in 0..line.state.directions() {
+            line.iterate.moments[direction] = line.moments_of_shear(direction);
+        }
     }
     for k in 0..lines.len() {
         let Some(patch) = lines[k].problem.patch else { return };

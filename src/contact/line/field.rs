@@ -1,8 +1,9 @@
 //! Displacements of a line along and across, of which those of all lines of its patch are polynomials.
 
 use super::contact_line::{ContactLine, LineIterate};
-use crate::contact::flexibility::{ByMoments, ByPowers, at, slip_of_field};
+use crate::contact::flexibility::{ByPowers, at, slip_of_field};
 use crate::contact::problem::LineProblem;
+use crate::linalg::POINTS;
 use crate::multistep::History;
 
 impl ContactLine<'_> {
@@ -93,17 +94,28 @@ impl ContactLine<'_> {
         0.5 * (own + by_lines.sum::<f64>())
     }
 
-    /// Slip [m/s] along (0) or across (1) as a polynomial of the place by unit moments of the line number `by` of the patch
-    /// in the `other` direction or the same; `None`: there is no patch.
-    pub fn slip_by_moments(&self, direction: usize, by: usize, other: usize) -> Option<ByMoments> {
-        let patch = self.problem.patch?;
-        let between = match direction == other {
-            false => *patch.flexibility.across(patch.line, by)?[1],
-            true if by == patch.line => patch.own(direction)?,
-            true if direction == 0 => *patch.flexibility.between(patch.line, by),
-            true => *patch.flexibility.across(patch.line, by)?[0],
-        };
+    /// Writes slips [m/s] along (0) or across (1) as a polynomial of the place, by the moments of all `lines` of the patch in all
+    /// `directions`: its coefficients one after the other, each by all moments. Without a patch there are none.
+    pub fn slips_by_moments(&self, direction: usize, [lines, directions]: [usize; 2], slips: &mut Vec<f64>) {
+        let Some(patch) = self.problem.patch else { return };
         let speeds = [self.problem.time.a0, self.traction.rigid.travel + self.rim_velocity()];
-        Some(between.slips(slip_of_field(speeds, patch.half_length)))
+        let [by_displacement, by_strain] = slip_of_field(speeds, patch.half_length);
+        let (first, count) = (slips.len(), lines * directions * POINTS);
+        slips.resize(first + count * POINTS, 0.0);
+        let slips = &mut slips[first..];
+        for (place, (by, other)) in (0..lines).flat_map(|by| (0..directions).map(move |other| (by, other))).enumerate()
+        {
+            let Some(between) = patch.between(by, [direction, other]) else { continue };
+            let moments = between.displacement.iter().zip(&between.strain).enumerate();
+            for (moment, (displacements, strains)) in moments {
+                for power in 0..POINTS {
+                    slips[power * count + place * POINTS + moment] =
+                        by_displacement * displacements[power] + by_strain * strains[power];
+                }
+            }
+            if (by, other) == (patch.line, direction) {
+                slips[place * POINTS] += by_displacement * patch.by_reach(direction);
+            }
+        }
     }
 }

@@ -65,7 +65,7 @@ impl KnownPart {
         }));
         self.powers.clear();
         if let Some(patch) = problem.patch {
-            self.powers.extend(grid.x.iter().map(|x| patch.powers(*x)));
+            self.powers.extend(patch.powers(&grid.x));
         }
         self.slip_offset.clear();
         self.slip_offset.extend(state.moved[0].iter().map(|h| h.offset(&problem.time)));

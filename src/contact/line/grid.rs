@@ -134,12 +134,15 @@ impl ContactGrid {
 
     /// Adds the displacements of all nodes that belong to those of the bodies' `ports`.
     pub fn add_expanded(&self, ports: &DVector<f64>, displacement: &mut DVector<f64>) {
-        let points = ports.as_slice().as_chunks::<2>().0;
+        let mut points = [[0.0; 2]; POINTS];
+        points.as_flattened_mut().copy_from_slice(ports.as_slice());
         for (node, values) in displacement.as_mut_slice().as_chunks_mut::<2>().0.iter_mut().zip(&*self.values) {
-            for (value, [x, y]) in values.iter().zip(points) {
-                node[0] += value * x;
-                node[1] += value * y;
+            let mut sum = *node;
+            for (value, [x, y]) in values.iter().zip(&points) {
+                sum[0] += value * x;
+                sum[1] += value * y;
             }
+            *node = sum;
         }
     }
 

@@ -112,7 +112,7 @@ impl ContactLine<'_> {
     /// Displacements of both surfaces, and the value of the affine rim angle.
     fn displace(&mut self, accelerations: PerAxis<Option<f64>>) {
         let Self { grid, problem, given, state, traction, iterate, kernel, .. } = self;
-        let LineIterate { all, rim, own, .. } = &mut **iterate;
+        let LineIterate { all, rim, own, moved, .. } = &mut **iterate;
         let bodies = &problem.bodies;
         rim.value = rim.constant + rim.by_ports.dot(&all.contact) + rim.by_own(grid, &state.forces);
         for (body, sign) in [(0, 1.0), (1, -1.0)] {
@@ -130,7 +130,9 @@ impl ContactLine<'_> {
         for (body, surface) in [&mut *wheel, &mut *rail].into_iter().enumerate() {
             copy(surface, &given.displacement[body]);
             // What is known of the ports is in the displacements of all nodes.
-            grid.add_expanded(&(&traction.surface[body] - &given.ports[body]), surface);
+            copy(moved, &traction.surface[body]);
+            *moved -= &given.ports[body];
+            grid.add_expanded(moved, surface);
         }
         own.add_between([wheel, rail]);
     }
@@ -181,7 +183,7 @@ impl ContactLine<'_> {
     /// Generalised contact forces on the wheel: force x, force y, forward moment about the hub centre.
     pub fn resultant(&self) -> PerAxis<f64> {
         let mut sum = PerAxis::default();
-        for i in (0..self.grid.len()).filter(|&i| self.is_loaded(i)) {
+        for i in self.loaded() {
             let (t, n) = (self.tangential(i), self.normal(i));
             let [arm_t, arm_n] = self.lever_arms(i);
             sum.travel += t + n * self.slopes().rail(i);

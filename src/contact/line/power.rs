@@ -23,7 +23,7 @@ impl ContactLine<'_> {
     fn slope_power(&self) -> f64 {
         let rail = &self.state.surface[1];
         let slope = |i: usize| self.grid.slope(rail, i, 1) + self.swelling_slope(1, i);
-        let load: f64 = (0..self.grid.len()).map(|i| self.normal(i) * slope(i)).sum();
+        let load: f64 = self.loaded().map(|i| self.normal(i) * slope(i)).sum();
         (self.rim_velocity() - self.traction.rigid.travel) * (load + self.iterate.retarded.force[1])
     }
 
@@ -34,7 +34,7 @@ impl ContactLine<'_> {
         let of_node = |i: usize| {
             -self.normal(i) * (velocity[0] * self.swelling_slope(0, i) + velocity[1] * self.swelling_slope(1, i))
         };
-        let swelling: f64 = (0..self.grid.len()).map(of_node).sum();
+        let swelling: f64 = self.loaded().map(of_node).sum();
         let turning = velocity[0] / self.frame.radius;
         let membrane = |body: usize| -> f64 {
             let u = &self.given.layers.membrane[body];
@@ -44,7 +44,7 @@ impl ContactLine<'_> {
                 let turned = tangential * u[port + 1] - normal * u[port];
                 velocity[body] * straight + if body == 0 { turning * turned } else { 0.0 }
             };
-            if u.is_empty() { 0.0 } else { (0..self.grid.len()).map(of_node).sum() }
+            if u.is_empty() { 0.0 } else { self.loaded().map(of_node).sum() }
         };
         swelling + membrane(0) - membrane(1)
     }

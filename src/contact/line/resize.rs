@@ -8,7 +8,6 @@ use super::state::{GridState, NodeStatus};
 use crate::contact::layout::NodeSize;
 use crate::contact::problem::LineProblem;
 use crate::multistep::History;
-use nalgebra::DVector;
 use std::ops::Range;
 
 /// Way of the material in a step over the distance of the nodes, below which these stay, and sizes asked for over that at hand with
@@ -59,15 +58,20 @@ impl Interpolation {
         weights.iter().enumerate().map(|(k, weight)| weight * value(first + k)).sum()
     }
 
-    fn values(&self, value: impl Fn(usize) -> f64) -> impl Iterator<Item = f64> {
-        (0..self.stencils.len()).map(move |i| self.at(i, &value))
-    }
-
     fn histories(&self, histories: &mut Vec<History>) {
-        let of = |i: usize, part: fn(&History) -> f64| self.at(i, |j| part(&histories[j]));
-        let carried =
-            |i: usize| History { now: of(i, |h| h.now), before: of(i, |h| h.before), rate: of(i, |h| h.rate) };
-        *histories = (0..histories.len()).map(carried).collect();
+        if histories.is_empty() {
+            return;
+        }
+        let carried = |(first, weights): &(usize, [f64; CUBIC])| {
+            let mut carried = History { now: 0.0, before: 0.0, rate: 0.0 };
+            for (weight, history) in weights.iter().zip(&histories[*first..]) {
+                carried.now += weight * history.now;
+                carried.before += weight * history.before;
+                carried.rate += weight * history.rate;
+            }
+            carried
+        };
+        *histories = self.stencils.iter().map(carried).collect();
     }
 }
 
@@ -109,8 +113,13 @@ impl GridState {
         }
         let nodes = Interpolation::new(grid.nodes(), ratio);
         for surface in &mut self.surface {
-            let [x, y] = [0, 1].map(|component| nodes.values(|j| surface[2 * j + component]).collect::<Vec<_>>());
-            *surface = DVector::from_iterator(surface.len(), x.into_iter().zip(y).flat_map(|(x, y)| [x, y]));
+            let (before, now) = (surface.clone(), surface.as_mut_slice().as_chunks_mut::<2>().0);
+            let before = before.as_slice().as_chunks::<2>().0;
+            for (node, (first, weights)) in now.iter_mut().zip(&nodes.stencils) {
+                let of_first = before[*first].map(|moved| weights[0] * moved);
+                let rest = weights[1..].iter().zip(&before[first + 1..]);
+                *node = rest.fold(of_first, |sum, (by, moved)| [sum[0] + by * moved[0], sum[1] + by * moved[1]]);
+            }
         }
     }
 
@@ -192,7 +201,8 @@ mod tests {
         let quadratic = |x: f64| 1.0 + x * (0.5 - 0.25 * x);
         for ratio in [0.2, 0.97, 1.0, 1.03, 2.5] {
             let interpolation = Interpolation::new(&x, ratio);
-            for (i, found) in interpolation.values(|j| quadratic(x[j])).enumerate() {
+            for i in 0..x.len() {
+                let found = interpolation.at(i, |j| quadratic(x[j]));
                 let expected = quadratic((ratio * x[i]).clamp(-5.0, 5.0));
                 assert!((found - expected).abs() < 1e-12, "{ratio} {i}: {found} {expected}");
             }

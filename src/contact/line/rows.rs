@@ -4,18 +4,19 @@ use super::contact_line::ContactLine;
 use crate::axes::{Axis, PerAxis};
 use crate::contact::problem::Influence;
 use crate::linalg::POINTS;
+use crate::linalg::vectorised::add_columns;
 
 /// An affine function without its coefficients of the line's own forces.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AffineRow {
-    /// Coefficients of the forces of all lines on the ports [1/(N/m)].
-    pub ports: [f64; 2 * POINTS],
+    /// Coefficients of the displacements along of the wheel less those of the rail at the points of the bodies.
+    pub moved: [f64; POINTS],
+    /// Coefficients of the displacements of both along there, times the velocities that carry them [m/s].
+    pub carried: [f64; POINTS],
     /// Coefficient of the rim angle [1/rad].
     pub angle: f64,
     /// Coefficients of the rigid motions.
     pub motions: PerAxis<f64>,
-    /// Coefficients of their accelerations.
-    pub accelerations: PerAxis<f64>,
     /// Constant at the rim angle of the present iterate; it contains the accelerations that are known.
     pub constant: f64,
 }
@@ -30,78 +31,80 @@ pub struct UpwindSlip {
     by_angle: f64,
 }
 
-/// Displacements of the points of the bodies by forces on the ports and rigid accelerations, for all rows of a line.
-pub struct BodyRows {
-    /// Displacement of the wheel less that of the rail, along.
-    moved: [[f64; BODY_COLUMNS]; POINTS],
-    /// Displacements of both along, times the velocities that carry them [m/s].
-    carried: [[f64; BODY_COLUMNS]; POINTS],
-    /// Rise of the wheel by rigid accelerations.
-    raised: [[f64; Axis::COUNT]; POINTS],
-}
-
-/// Forces on the ports, then rigid accelerations.
-const BODY_COLUMNS: usize = 2 * POINTS + Axis::COUNT;
-
-/// Sum of columns times factors.
-fn combine<const N: usize>(factors: &[f64; POINTS], columns: &[[f64; N]; POINTS], sum: &mut [f64; N]) {
-    for (factor, columns) in factors.iter().zip(columns) {
-        sum.iter_mut().zip(columns).for_each(|(sum, value)| *sum += factor * value);
-    }
-}
+/// Effects of the bodies on a line at their points: gaps that they open, displacements of the wheel less those of the rail along,
+/// and displacements of both along, times the velocities that carry them.
+pub const BODY_ROWS: usize = 3 * POINTS;
+/// Causes of these: forces on the ports, then rigid motions, in whole registers.
+pub const BODY_CAUSES: usize = (2 * POINTS + Axis::COUNT).next_multiple_of(4);
+/// Effects by causes.
+pub type BodyRows = [[f64; BODY_CAUSES]; BODY_ROWS];
 
 impl ContactLine<'_> {
-    /// Part of the bodies in the rows of this line.
-    pub fn body_rows(&self) -> BodyRows {
+    /// What forces on the ports and the `motions` that are sought do at the points of the bodies, by accelerations that are
+    /// their `gains` [1/s] times the motions.
+    pub fn body_rows(&self, motions: &[Axis], gains: PerAxis<f64>) -> BodyRows {
         let (bodies, v, velocity) = (&self.problem.bodies, self.traction.rigid.travel, self.rim_velocity());
         let Influence { compliance: [wheel, rail], relative } = bodies.shared;
-        let of = |k: usize, by: usize| match by.checked_sub(2 * POINTS) {
-            None => (relative[(2 * k, by)], velocity * wheel[(2 * k, by)] + v * rail[(2 * k, by)]),
-            Some(axis) => (bodies.inertial[(2 * k, axis)], velocity * bodies.inertial[(2 * k, axis)]),
-        };
-        BodyRows {
-            moved: std::array::from_fn(|k| std::array::from_fn(|by| of(k, by).0)),
-            carried: std::array::from_fn(|k| std::array::from_fn(|by| of(k, by).1)),
-            raised: std::array::from_fn(|k| std::array::from_fn(|axis| bodies.inertial[(2 * k + 1, axis)])),
+        let mut rows = [[0.0; BODY_CAUSES]; BODY_ROWS];
+        for (k, port) in (0..POINTS).flat_map(|k| (0..2 * POINTS).map(move |port| (k, port))) {
+            rows[k][port] = relative[(2 * k + 1, port)];
+            rows[POINTS + k][port] = relative[(2 * k, port)];
+            rows[2 * POINTS + k][port] = velocity * wheel[(2 * k, port)] + v * rail[(2 * k, port)];
         }
+        for (number, &axis) in motions.iter().enumerate() {
+            let (at, gain) = (2 * POINTS + number, gains[axis]);
+            for k in 0..POINTS {
+                let [along, up] = [0, 1].map(|component| gain * bodies.inertial[(2 * k + component, axis.number())]);
+                rows[k][at] = up + if axis == Axis::Height { 1.0 } else { 0.0 };
+                (rows[POINTS + k][at], rows[2 * POINTS + k][at]) = (along, velocity * along);
+            }
+        }
+        rows
     }
 
-    /// The gap at a candidate without that by forces \[m].
-    pub fn gap_row(&self, i: usize, bodies: &BodyRows) -> AffineRow {
-        let (at, x) = (self.grid.component(i) + 1, self.grid.x[i]);
-        let mut raised = [0.0; Axis::COUNT];
-        combine(&self.grid.values[at / 2], &bodies.raised, &mut raised);
-        let accelerations = PerAxis::from_fn(|axis| raised[axis.number()]);
-        let [wheel, rail] = &self.given.displacement;
-        let constant = self.given.gap[i] + wheel[at] - x * self.frame.rim_angle - rail[at];
-        let motions = PerAxis::unit(Axis::Height);
-        AffineRow { motions, accelerations, angle: -x, constant, ..AffineRow::default() }
+    /// What the accelerations that are sought do at the points of the bodies in the present iterate.
+    pub fn accelerated(&self, gains: PerAxis<f64>) -> [f64; BODY_ROWS] {
+        let (velocity, mut rows) = (self.rim_velocity(), [0.0; BODY_ROWS]);
+        for (axis, gain) in gains.iter().filter(|(_, gain)| *gain != 0.0) {
+            let acceleration = gain * self.traction.rigid[axis];
+            for k in 0..POINTS {
+                let moved = |component: usize| self.problem.bodies.inertial[(2 * k + component, axis.number())];
+                let [along, up] = [0, 1].map(|component| acceleration * moved(component));
+                rows[k] += up;
+                rows[POINTS + k] += along;
+                rows[2 * POINTS + k] += velocity * along;
+            }
+        }
+        rows
+    }
+
+    /// The gap at a candidate without that by forces and accelerations that are sought \[m].
+    pub fn known_gap(&self, i: usize) -> f64 {
+        let (at, [wheel, rail]) = (self.grid.component(i) + 1, &self.given.displacement);
+        let tilt = self.grid.x[i] * self.frame.rim_angle;
+        self.given.gap[i] + wheel[at] - tilt - rail[at] + self.traction.rigid.height
     }
 
     /// The slip at a candidate without that by own forces [m/s], linearised in V, Ω and the rim angle about the present
     /// iterate, and its upwind difference.
-    pub fn slip_row(&self, i: usize, bodies: &BodyRows) -> (AffineRow, UpwindSlip) {
+    pub fn slip_row(&self, i: usize) -> (AffineRow, UpwindSlip) {
         let (problem, at) = (self.problem, self.grid.component(i));
         let (v, velocity, gain) = (self.traction.rigid.travel, self.rim_velocity(), problem.time.a0);
         let [wheel, rail] = &self.given.displacement;
         let mut constant = gain * (wheel[at] - rail[at]) + self.given.slip_offset[i];
         let upwind = self.upwind_slip(i);
-        let mut slopes = [0.0; POINTS];
+        let mut carried = [0.0; POINTS];
         for (at, weight) in upwind.stencil {
             constant += weight * (v * rail[at] - velocity * self.frame.tangential(wheel, at));
-            slopes.iter_mut().zip(self.grid.values[at / 2]).for_each(|(slope, value)| *slope -= weight * value);
+            carried.iter_mut().zip(&self.grid.values[at / 2]).for_each(|(slope, value)| *slope -= weight * value);
         }
-        let mut by_bodies = [0.0; BODY_COLUMNS];
-        combine(&self.grid.values[at / 2].map(|value| gain * value), &bodies.moved, &mut by_bodies);
-        combine(&slopes, &bodies.carried, &mut by_bodies);
-        let accelerations = PerAxis::from_fn(|axis| by_bodies[2 * POINTS + axis.number()]);
+        let moved = self.grid.values[at / 2].map(|value| gain * value);
         let [stretch_wheel, stretch_rail] = upwind.stretches;
         let (travel, rotation) = (1.0 + stretch_rail, -problem.radius() * (1.0 + stretch_wheel));
         let mut motions = PerAxis { travel, rotation, ..PerAxis::default() };
         motions.add(-problem.position, PerAxis::from_fn(|axis| self.spin.by(axis)));
         constant += -v * stretch_rail + problem.radius() * self.traction.rigid.rotation * stretch_wheel;
-        let ports = std::array::from_fn(|port| by_bodies[port]);
-        (AffineRow { ports, angle: upwind.by_angle, motions, accelerations, constant }, upwind)
+        (AffineRow { moved, carried, angle: upwind.by_angle, motions, constant }, upwind)
     }
 
     /// The upwind difference of the slip at a candidate: a turn of the rim tilts the surface and slows the rim.
@@ -140,23 +143,24 @@ impl ContactLine<'_> {
         let (grid, gain) = (self.grid, self.problem.time.a0);
         let along = grid.unscaled(self.kernel.along(2 * direction));
         let carried = self.traction.rigid.travel + self.rim_velocity();
-        let (node, nodes) = (i + grid.guard, grid.logarithms.nrows());
+        let nodes = grid.logarithms.nrows();
         let constant = 2.0 * gain * along.factor * along.reach;
-        let by_node = |node: usize, factor: f64| (&grid.logarithms.as_slice()[node * nodes..][..nodes], factor);
-        let [a, b, c] = upwind.stencil.map(|(at, weight)| by_node(at / 2, -carried * weight * along.factor));
-        let columns = [by_node(node, 2.0 * gain * along.factor), a, b, c];
+        // The difference is one of three neighbours, of which the first is the candidate itself.
+        let [(a, near), (_, middle), (c, far)] = upwind.stencil;
+        let mut weights = [2.0 * gain - carried * near, -carried * middle, -carried * far];
+        if c < a {
+            weights.reverse();
+        }
+        let columns = &grid.logarithms.as_slice()[a.min(c) / 2 * nodes..];
         slips.clear();
         match closed {
-            // Neighbours: loops over them run several at a time.
             [first, .., last] if last - first < closed.len() => {
                 slips.resize(closed.len(), constant);
-                for (column, factor) in columns {
-                    let column = &column[first + grid.guard..][..closed.len()];
-                    slips.iter_mut().zip(column).for_each(|(slip, logarithm)| *slip += factor * logarithm);
-                }
+                add_columns(along.factor, &columns[first + grid.guard..], nodes, &weights, slips);
             }
             _ => slips.extend(closed.iter().map(|j| {
-                columns.iter().fold(constant, |slip, (column, factor)| slip + factor * column[j + grid.guard])
+                let of_column = |(k, weight): (usize, &f64)| weight * columns[k * nodes + j + grid.guard];
+                constant + along.factor * weights.iter().enumerate().map(of_column).sum::<f64>()
             })),
         }
         if self.problem.layer > 0.0 {
