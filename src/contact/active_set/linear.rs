@@ -99,7 +99,7 @@ struct Small<'a, 'b> {
     /// Coefficients of the slip that every line feels in every direction, one after the other and each by the moments of every
     /// line in every direction.
     between: Vec<f64>,
-    /// What the bodies do to every line.
+    /// Effects of the bodies on every line.
     bodies: Vec<BodyRows>,
     /// Places of their points \[m].
     points: [f64; POINTS],

@@ -50,7 +50,7 @@ const RETARDED_TOLERANCE: f64 = 1e-7;
 
 /// Distance of friction from its direction over the largest of the line, from which directions go on turning, and which is none \[1].
 const TELLING: f64 = 1e-3;
-const MISSED: f64 = 1e-8;
+const MISSED: f64 = 1e-9;
 /// Way of the material in a step, over the distance of the nodes, at which it stands \[1].
 const STANDS: f64 = 1e-9;
 

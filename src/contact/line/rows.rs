@@ -40,8 +40,8 @@ pub const BODY_CAUSES: usize = (2 * POINTS + Axis::COUNT).next_multiple_of(4);
 pub type BodyRows = [[f64; BODY_CAUSES]; BODY_ROWS];
 
 impl ContactLine<'_> {
-    /// What forces on the ports and the `motions` that are sought do at the points of the bodies, by accelerations that are
-    /// their `gains` [1/s] times the motions.
+    /// Effects at the points of the bodies of forces on the ports and of the `motions` that are sought, whose accelerations are
+    /// `gains` [1/s] times the motions.
     pub fn body_rows(&self, motions: &[Axis], gains: PerAxis<f64>) -> BodyRows {
         let (bodies, v, velocity) = (&self.problem.bodies, self.traction.rigid.travel, self.rim_velocity());
         let Influence { compliance: [wheel, rail], relative } = bodies.shared;
@@ -62,7 +62,7 @@ impl ContactLine<'_> {
         rows
     }
 
-    /// What the accelerations that are sought do at the points of the bodies in the present iterate.
+    /// Effects of the accelerations that are sought at the points of the bodies in the present iterate.
     pub fn accelerated(&self, gains: PerAxis<f64>) -> [f64; BODY_ROWS] {
         let (velocity, mut rows) = (self.rim_velocity(), [0.0; BODY_ROWS]);
         for (axis, gain) in gains.iter().filter(|(_, gain)| *gain != 0.0) {
