@@ -22,7 +22,7 @@ const DESCRIPTION: &str = "Transient rolling contact of an elastic wheel on an e
     on the wheel. Plane bodies; with contact.lateral the contact has lateral creepage and spin.";
 
 /// Date of the last change of the interface. A date of the build would make equal builds unequal.
-const GENERATED: &str = "2026-11-29T00:00:00Z";
+const GENERATED: &str = "2026-11-29T12:00:00Z";
 
 const COPYRIGHT: &str = "Copyright 2026 The wheelrail authors";
 
