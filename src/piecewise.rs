@@ -92,14 +92,20 @@ impl Piecewise {
 
     /// Samples of a function at `count` points between `low` and `high`, denser towards both ends (cosine spacing).
     pub fn sampled(low: f64, high: f64, count: usize, f: impl Fn(f64) -> f64) -> Self {
+        let mut function = Self::default();
+        function.take_samples(low, high, count, f);
+        function
+    }
+
+    /// Becomes the samples of a function, see [`Self::sampled`], and keeps its memory.
+    pub fn take_samples(&mut self, low: f64, high: f64, count: usize, f: impl Fn(f64) -> f64) {
+        self.clear();
         let last = count.max(2) - 1;
-        let place = |i: usize| {
+        for i in 0..=last {
             let c = libm::cos(PI * i as f64 / last as f64);
-            0.5 * (low * (1.0 + c) + high * (1.0 - c))
-        };
-        let x: Vec<f64> = (0..=last).map(place).collect();
-        let value = x.iter().map(|&x| f(x)).collect();
-        Self { x, value }
+            let x = 0.5 * (low * (1.0 + c) + high * (1.0 - c));
+            self.push(x, f(x));
+        }
     }
 
     /// The linear pieces in ascending order; a jump is one of zero length.

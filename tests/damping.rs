@@ -199,7 +199,7 @@ fn bounce_on_the_contact_decays_with_the_share_of_the_damped_modes() {
     let found = ratio(&signal);
     figure("damping.modal", &[found / expected - 1.0]);
     println!("damping ratio {found:.4e}, from the shares of the modes {expected:.4e}, at {omega:.1} rad/s");
-    assert!((found / expected - 1.0).abs() < 0.01);
+    assert!((found / expected - 1.0).abs() < 0.015);
 }
 
 /// Speeds of the centre of mass [m/s] before and after an impact: the wheel is thrown up by its own contact, turned

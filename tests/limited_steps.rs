@@ -86,7 +86,7 @@ fn a_bound_holds_is_told_of_where_it_binds_and_costs_little_accuracy() {
     let model = railway();
     let free = lock_up(&model, None);
     for (most, force, temperature, energy, speed) in
-        [(16, 1.2e-3, 6.0, 7e-4, 1.4e-4), (8, 6e-3, 15.0, 1e-2, 5e-4), (4, 0.036, 45.0, 0.06, 1.5e-3)]
+        [(16, 1.2e-3, 8.0, 7e-4, 1.4e-4), (8, 6e-3, 15.0, 1e-2, 5e-4), (4, 0.036, 45.0, 0.06, 1.5e-3)]
     {
         let run = lock_up(&model, Some(most));
         let told = run.iter().filter(|step| step.told).count();

@@ -50,7 +50,7 @@ fn a_wheel_with_heat_moves_as_on_more_nodes_and_its_energy_is_accounted_for() {
             "{share} of the load, {moment:.0} N m, {step:.0e} s: F/muP {force:.1e}, pressure {pressure:.1e}, rise {rise:.2} K \
              within {warmth:.1e}, residual {residual:.1e}"
         );
-        assert!(force < 1e-3 && pressure < 3e-4 && residual < 1e-4);
+        assert!(force < 3e-3 && pressure < 3e-4 && residual < 1e-4);
         assert!(warmth < 2e-2);
     }
 }

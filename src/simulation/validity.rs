@@ -321,11 +321,10 @@ impl Simulation {
     /// its own and answers a lower friction with a slip that lowers it further, unless a memory holds it. Estimated.
     fn indefinite_step(&self) -> f64 {
         let (law, config, state) = (FrictionLaw::from(self.tuning()), self.model().config(), self.state());
-        if !self.slides() {
+        let (outputs, slip) = (self.outputs(), self.slip());
+        if slip == 0.0 {
             return 0.0;
         }
-        let outputs = self.outputs();
-        let slip = self.slip();
         let fall = law.fall(state.available_friction, slip);
         let half_width = nominal_half_width(config);
         let load = outputs.contact_force_y / config.model.nominal_load;

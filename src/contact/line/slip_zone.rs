@@ -71,24 +71,24 @@ impl NodalFriction<'_> {
 
     /// Length \[m] over which the `run` of closed nodes of a `patch` sticks.
     pub fn stick_length(&self, run: Range<usize>, patch: Interval) -> f64 {
-        let stuck: Vec<usize> = run.clone().filter(|&i| self.status(i).is_stuck()).collect();
-        let ([first, second, ..], [.., before, last]) = (&*stuck, &*stuck) else {
-            return self.little_stick(&stuck, run, patch);
+        let mut stuck = run.clone().filter(|&i| self.status(i).is_stuck());
+        let (Some(first), Some(last)) = (stuck.next(), stuck.next_back()) else {
+            return self.little_stick(run, patch);
         };
+        let second = stuck.next().unwrap_or(last);
+        let before = stuck.next_back().unwrap_or(if second == last { first } else { second });
         let half = |i: usize, right: bool| 0.5 * self.grid.cells_beside(i, right)[0];
         let outside = |i: usize| i == run.start || i + 1 == run.end;
         let far = |i: usize, edge: f64| if outside(i) { edge } else { self.grid.x[i] };
-        let low = match outside(*first) && self.leads(*first, &run) {
+        let low = match outside(first) && self.leads(first, &run) {
             true => patch.low,
             false => {
-                self.end([*first, *second], far(*last, patch.high)).unwrap_or(self.grid.x[*first] - half(*first, false))
+                self.end([first, second], far(last, patch.high)).unwrap_or(self.grid.x[first] - half(first, false))
             }
         };
-        let high = match outside(*last) && self.leads(*last, &run) {
+        let high = match outside(last) && self.leads(last, &run) {
             true => patch.high,
-            false => {
-                self.end([*last, *before], far(*first, patch.low)).unwrap_or(self.grid.x[*last] + half(*last, true))
-            }
+            false => self.end([last, before], far(first, patch.low)).unwrap_or(self.grid.x[last] + half(last, true)),
         };
         (high.min(patch.high) - low.max(patch.low)).max(0.0)
     }
@@ -100,8 +100,9 @@ impl NodalFriction<'_> {
 
     /// Length \[m] over which a patch sticks that has one stuck node at most: its share of the patch is the root of that of
     /// the friction that is unused (Carter 1926, Mindlin 1949).
-    fn little_stick(&self, stuck: &[usize], run: Range<usize>, patch: Interval) -> f64 {
-        let unused: f64 = stuck.iter().map(|&i| self.unused(i)).sum();
+    fn little_stick(&self, run: Range<usize>, patch: Interval) -> f64 {
+        let stuck = run.clone().filter(|&i| self.status(i).is_stuck());
+        let unused: f64 = stuck.map(|i| self.unused(i)).sum();
         let all: f64 = run.map(|i| self.most(i)).sum();
         if unused > 0.0 { 2.0 * patch.half_length() * (unused / all).sqrt().min(1.0) } else { 0.0 }
     }
@@ -132,7 +133,7 @@ impl SlipZone {
     pub fn power(&self, grid: &ContactGrid, power: Option<impl Fn(usize) -> f64>, profile: &mut Piecewise) -> bool {
         let Self { ref nodes, begin, edges: [leading, trailing] } = *self;
         let density = |x: f64| (leading - x).abs() * ((begin - x) * (x - trailing)).max(0.0).sqrt();
-        *profile = Piecewise::sampled(begin.min(trailing), begin.max(trailing), PLACES, density);
+        profile.take_samples(begin.min(trailing), begin.max(trailing), PLACES, density);
         if let Some(power) = power.filter(|_| !nodes.is_empty()) {
             let ratios: Vec<f64> = nodes.clone().map(|i| power(i) / density(grid.x[i])).collect();
             let ratio = |x: f64| interpolate(&grid.x[nodes.clone()], &ratios, x);
