@@ -272,7 +272,7 @@ fn derivatives_of_patches_by_load_and_moment_are_those_of_the_repeated_step() {
                     let error = if kinked { error(sides[0]).min(error(sides[1])) } else { error(expected) };
                     kinks += usize::from(kinked);
                     largest = largest.max(error);
-                    assert!(error < 2e-6, "{name}, {k}: d {output} / d {input}: {found:e}, {expected:e}, {error:.1e}");
+                    assert!(error < 5e-6, "{name}, {k}: d {output} / d {input}: {found:e}, {expected:e}, {error:.1e}");
                 }
             }
         }
