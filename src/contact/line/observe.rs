@@ -55,10 +55,12 @@ pub fn read_off(
     let (patches, status) = (&traction.patches, &state.status);
     over_patches(grid, status, patches, |i| normal(i) / grid.width(i), &mut traction.pressure);
     over_patches(grid, status, patches, |i| tangential(i) / grid.width(i), &mut traction.shear);
-    over_patches(grid, status, patches, |i| centred_slip[i], &mut traction.slip);
+    // Central differences across the end of stick leave a little slip at nodes that stick.
+    let slips = |i: usize, slip: &[f64]| if status[i].is_stuck() { 0.0 } else { slip[i] };
+    over_patches(grid, status, patches, |i| slips(i, centred_slip), &mut traction.slip);
     if state.directions() > 1 {
         over_patches(grid, status, patches, |i| lateral(i) / grid.width(i), &mut traction.lateral_shear);
-        over_patches(grid, status, patches, |i| centred_across[i], &mut traction.lateral_slip);
+        over_patches(grid, status, patches, |i| slips(i, centred_across), &mut traction.lateral_slip);
     }
     heat(&friction, zone.filter(|_| patches.len() == 1), patches, &mut traction.friction.dissipation);
     traction.friction.dissipation.scale_to(power, &traction.pressure);
