@@ -113,7 +113,7 @@ fn a_change_by_hand_takes_the_place_of_what_the_link_has_still_to_come() {
 fn the_picture_of_the_patch_carries_load_and_brake_force() {
     // Between its nodes a profile is straight; between lines the peak of shear, where slip turns to stick, is smeared; and the
     // outermost rows of S1002, which bear load on all of their width, taper to the edge.
-    let bounds = [(Patch::Line, [1e-2, 0.03]), (Patch::Ellipse, [5e-3, 0.03]), (Patch::S1002, [0.06, 0.05])];
+    let bounds = [(Patch::Line, [1e-2, 0.03]), (Patch::Ellipse, [1e-2, 0.03]), (Patch::S1002, [0.06, 0.07])];
     for (patch, bounds) in bounds {
         let mut bench = run(&format!("patch={}&torque=4", patch.name()));
         steps(&mut bench, 40);
