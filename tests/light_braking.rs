@@ -79,3 +79,30 @@ fn stick_and_flash_are_smooth_while_the_slip_zone_passes_nodes() {
     figure("zone.smooth", &[stick, rise]);
     assert!(stick < 2e-3 && rise < 0.02, "{stick} {rise}");
 }
+
+/// Spin lets slip grow along the zone otherwise than in Carter's contact. Twenty nodes see slip zones where ten see slip from node
+/// to node, so that both ways of writing the heat must agree.
+#[test]
+fn flash_under_spin_is_the_same_whether_the_slip_zone_or_the_nodes_tell_where_friction_heats() {
+    let rises = [10, 20].map(|nodes| {
+        let model = on_nodes("railway_ellipse", nodes, |config| config.contact.lateral = true);
+        let mut inputs = prescribed(&model, 27.0, 1e-3);
+        inputs.drive.spin = 0.5;
+        let outputs = Simulation::new(model, &inputs).unwrap().outputs().clone();
+        outputs.temperature_wheel_max - outputs.temperature_wheel_bulk
+    });
+    println!("rise under spin on 10 and 20 nodes: {rises:.3?} K");
+    figure("zone.spin", &[(rises[1] / rises[0] - 1.0).abs()]);
+    assert!(rises[0] > 10.0 && (rises[1] / rises[0] - 1.0).abs() < 0.01, "{rises:?}");
+}
+
+/// The share that sticks falls to zero with the last nodes that stick, in steps that are shorter than theirs: a node is .05 of a patch.
+#[test]
+fn stick_vanishes_without_steps_of_a_node_as_a_brake_uses_all_friction() {
+    let model = on_nodes("railway", 10, |config| config.thermal.enabled = false);
+    let shares: Vec<f64> = (0..80).map(|k| seen(&model, 2.6e-3 + 2e-5 * f64::from(k)).stick).collect();
+    let largest = shares.windows(2).map(|pair| pair[0] - pair[1]).fold(0.0, f64::max);
+    println!("stick from {:.3} to {:.3}, largest step {largest:.4}", shares[0], shares[79]);
+    figure("zone.vanishes", &[largest]);
+    assert!(shares[0] > 0.3 && shares[79] == 0.0 && largest < 0.035, "{largest}");
+}

@@ -55,7 +55,7 @@ fn free_rolling_of_a_hot_wheel_has_the_creepage_of_the_cold_one_but_for_the_chil
 /// The depth that the chill reaches in the contact goes with `√(a/V)`, and so should the creepage. It depends on the step by less
 /// than 1 % and on friction by less than 8. Of the law in the speed nodes miss: at 14 m/s 27 %, at 7 m/s 48 %, on 40 elements.
 #[test]
-fn the_creepage_of_a_chilled_tread_hardly_depends_on_step_and_friction_and_rises_less_than_its_chill_with_slowness() {
+fn the_creepage_of_a_chilled_tread_hardly_depends_on_step_and_friction_and_rises_with_slowness() {
     let shift = |velocity: f64, friction: f64, h: f64| {
         let creepage = |excess: f64| {
             let mut config = preset("railway", 40);
@@ -75,7 +75,13 @@ fn the_creepage_of_a_chilled_tread_hardly_depends_on_step_and_friction_and_rises
     {
         let found = shift(velocity, friction, h);
         println!("{velocity} m/s, friction {friction}, h {h:.0e} s: {found:.4e} (28 m/s: {reference:.4e}) (m/s)^1/2");
+        let slow = velocity < 28.0;
+        if slow {
+            common::figure(&format!("chill.{velocity:.0}"), &[1.0 - found / reference]);
+        }
+        // The law of the root asks for the same at all speeds; where nodes miss it, the creepage itself rises all the same.
         assert!((found / reference - 1.0).abs() < bound);
+        assert!(!slow || found * (28.0 / velocity).sqrt() > 1.02 * reference);
     }
 }
 
