@@ -307,7 +307,7 @@ pub fn weighted_mean(weight: &Piecewise, x: &[f64], values: &[f64]) -> f64 {
             next += usize::from(x.get(next).is_some_and(|node| *node <= at));
         }
     }
-    if total > 0.0 { sum / total } else { 0.0 }
+    if total != 0.0 { sum / total } else { 0.0 }
 }
 
 /// Share that rises from 0 to 1 with `t` from 0 to 1, without a kink, and is constant beyond.

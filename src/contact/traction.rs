@@ -2,7 +2,7 @@
 
 use crate::axes::PerAxis;
 use crate::linalg::POINTS;
-use crate::piecewise::{Interval, Piecewise};
+use crate::piecewise::{Interval, Piecewise, weighted_mean};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
@@ -130,6 +130,16 @@ impl SolvedFriction {
 }
 
 impl Traction {
+    /// Scales the profiles of slip so that shear stress times slip has the `power` over the patch [W/m].
+    pub(super) fn scale_slip(&mut self, power: f64) {
+        let work = |shear: &Piecewise, slip: &Piecewise| weighted_mean(slip, &shear.x, &shear.value) * slip.integral();
+        let own = work(&self.shear, &self.slip) + work(&self.lateral_shear, &self.lateral_slip);
+        if power * own > 0.0 {
+            self.slip.scale(power / own);
+            self.lateral_slip.scale(power / own);
+        }
+    }
+
     /// That of surfaces which touch without forces.
     pub fn without_forces() -> Self {
         let ports = || DVector::zeros(2 * POINTS);

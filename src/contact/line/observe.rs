@@ -54,16 +54,22 @@ pub fn read_off(
 
     let (patches, status) = (&traction.patches, &state.status);
     over_patches(grid, status, patches, |i| normal(i) / grid.width(i), &mut traction.pressure);
+    let zone = zone.filter(|_| patches.len() == 1);
     over_patches(grid, status, patches, |i| tangential(i) / grid.width(i), &mut traction.shear);
     // Central differences across the end of stick leave a little slip at nodes that stick.
-    let slips = |i: usize, slip: &[f64]| if status[i].is_stuck() { 0.0 } else { slip[i] };
-    over_patches(grid, status, patches, |i| slips(i, centred_slip), &mut traction.slip);
+    let slips = |slip: &[f64], profile: &mut Piecewise| match &zone {
+        Some(zone) => zone.slip(grid, |i| slip[i], profile),
+        None => over_patches(grid, status, patches, |i| if status[i].is_stuck() { 0.0 } else { slip[i] }, profile),
+    };
+    slips(centred_slip, &mut traction.slip);
     if state.directions() > 1 {
         over_patches(grid, status, patches, |i| lateral(i) / grid.width(i), &mut traction.lateral_shear);
-        over_patches(grid, status, patches, |i| slips(i, centred_across), &mut traction.lateral_slip);
+        slips(centred_across, &mut traction.lateral_slip);
     }
-    heat(&friction, zone.filter(|_| patches.len() == 1), patches, &mut traction.friction.dissipation);
+    let across = |i: usize| if state.directions() > 1 { lateral(i) * centred_across[i] } else { 0.0 };
+    heat(&friction, zone, patches, &mut traction.friction.dissipation);
     traction.friction.dissipation.scale_to(power, &traction.pressure);
+    traction.scale_slip((0..grid.len()).map(|i| tangential(i) * centred_slip[i] + across(i)).sum());
 }
 
 /// Writes the profile of friction's power, but for a factor: that of the slip `zone` of a single patch, or from node to node.

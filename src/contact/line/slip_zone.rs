@@ -30,7 +30,7 @@ pub struct NodalFriction<'a> {
 /// Slip from a place within a patch to its trailing edge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlipZone {
-    /// Slipping nodes whose neighbours slip, too, but for those next to the beginning.
+    /// Slipping nodes but for those next to the beginning, if there are others.
     nodes: Range<usize>,
     /// Place where it begins \[m].
     begin: f64,
@@ -123,7 +123,7 @@ impl SlipZone {
         }
         let begin = friction.end([node(slipping), node(slipping + 1)], edges[0])?.clamp(patch.low, patch.high);
         let inner = slipping.saturating_sub(BESIDE).max(1);
-        let nodes = if friction.to_right { node(1)..node(inner) } else { node(inner) + 1..node(1) + 1 };
+        let nodes = if friction.to_right { node(0)..node(inner) } else { node(inner) + 1..node(0) + 1 };
         Some(Self { nodes, begin, edges })
     }
 
@@ -132,13 +132,36 @@ impl SlipZone {
     /// given [W/m²]: under spin slip grows otherwise. Returns false where there is no slip.
     pub fn power(&self, grid: &ContactGrid, power: Option<impl Fn(usize) -> f64>, profile: &mut Piecewise) -> bool {
         let Self { ref nodes, begin, edges: [leading, trailing] } = *self;
+        // Beside the trailing edge the ratio is that of two small numbers.
+        let inside = if leading > trailing { nodes.start + 1..nodes.end } else { nodes.start..nodes.end - 1 };
         let density = |x: f64| (leading - x).abs() * ((begin - x) * (x - trailing)).max(0.0).sqrt();
-        profile.take_samples(begin.min(trailing), begin.max(trailing), PLACES, density);
-        if let Some(power) = power.filter(|_| !nodes.is_empty()) {
-            let ratios: Vec<f64> = nodes.clone().map(|i| power(i) / density(grid.x[i])).collect();
+        self.write(grid, density, power.map(|power| (inside, power)), profile);
+        begin != trailing
+    }
+
+    /// Writes the profile of slip [m/s], but for a factor: it rises as in Carter's contact, times what the `slip` at the
+    /// nodes has more.
+    pub fn slip(&self, grid: &ContactGrid, slip: impl Fn(usize) -> f64, profile: &mut Piecewise) {
+        let Self { ref nodes, begin, edges: [leading, _] } = *self;
+        let shape = |x: f64| ((leading - x) * (begin - x)).max(0.0).sqrt();
+        self.write(grid, shape, Some((nodes.clone(), slip)), profile);
+    }
+
+    /// Writes a `shape` over the places of the zone, times what the values of the nodes have more, where those are given.
+    fn write(
+        &self,
+        grid: &ContactGrid,
+        shape: impl Fn(f64) -> f64,
+        values: Option<(Range<usize>, impl Fn(usize) -> f64)>,
+        profile: &mut Piecewise,
+    ) {
+        let Self { begin, edges: [_, trailing], .. } = *self;
+        profile.take_samples(begin.min(trailing), begin.max(trailing), PLACES, &shape);
+        if let Some((nodes, value)) = values.filter(|(nodes, _)| !nodes.is_empty()) {
+            let over = |i: usize| value(i) / shape(grid.x[i]);
+            let ratios: Vec<f64> = nodes.clone().map(|i| if over(i).is_finite() { over(i) } else { 0.0 }).collect();
             let ratio = |x: f64| interpolate(&grid.x[nodes.clone()], &ratios, x);
             profile.x.iter().zip(&mut profile.value).for_each(|(x, value)| *value *= ratio(*x));
         }
-        begin != trailing
     }
 }
