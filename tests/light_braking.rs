@@ -106,3 +106,22 @@ fn stick_vanishes_without_steps_of_a_node_as_a_brake_uses_all_friction() {
     figure("zone.vanishes", &[largest]);
     assert!(shares[0] > 0.3 && shares[79] == 0.0 && largest < 0.035, "{largest}");
 }
+
+/// Slip at a place of the profile is that of finer nodes from the place where it begins on, but for the cell of the trailing edge.
+#[test]
+fn slip_of_the_profile_is_that_of_four_times_the_nodes() {
+    let [coarse, fine] = [10, 40].map(|nodes| on_nodes("railway", nodes, |_| {}));
+    for creepage in [2e-4, 7e-4, 1.7e-3] {
+        let [ours, reference] = [&coarse, &fine].map(|model| rolling(model, creepage));
+        let ends = ours.profile_slip.iter().zip(&ours.profile_x).filter(|(slip, _)| **slip != 0.0).map(|(_, x)| *x);
+        let [low, high] = [-ours.contact_half_width * 0.9, ends.fold(f64::NEG_INFINITY, f64::max)];
+        let largest = reference.profile_slip.iter().fold(0.0f64, |most, slip| most.max(slip.abs()));
+        let of_fine = |x: f64| wheelrail::piecewise::interpolate(&reference.profile_x, &reference.profile_slip, x);
+        let places = ours.profile_x.iter().zip(&ours.profile_slip).filter(|(x, _)| **x > low && **x < high);
+        let missed: Vec<f64> = places.map(|(x, slip)| (slip - of_fine(*x)).abs() / largest).collect();
+        let most = missed.iter().copied().fold(0.0, f64::max);
+        println!("creepage {creepage}: slip up to {largest:.4} m/s misses {most:.4} of it at {} places", missed.len());
+        figure("zone.slip", &[most]);
+        assert!(missed.len() > 3 && most < 0.05, "{creepage}: {missed:.3?}");
+    }
+}
