@@ -169,6 +169,7 @@ impl<'a> ActiveSet<'a> {
     /// Takes the states with which the search begins. Upwind differences begin with those of the step before all the same: from
     /// others they would end elsewhere within their tolerance, and forces would jump where a layout is tried more or less.
     fn begin_states(&mut self) {
+        self.lines.iter_mut().for_each(states::foresee);
         match self.problem.begin {
             Begin::Before(factor) => {
                 self.lines.iter_mut().for_each(|line| states::stretch(line, factor / line.resized));

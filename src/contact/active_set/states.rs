@@ -178,6 +178,32 @@ pub(super) fn found_anew(line: &mut ContactLine) {
     line.state.status.iter_mut().filter(|s| s.is_stuck()).for_each(|s| *s = founding);
 }
 
+/// Gives nodes at which stick ends the states that they have if friction or slip changes by as much again as in the step before.
+pub(super) fn foresee(line: &mut ContactLine) {
+    let reserves: Vec<f64> = (0..line.grid.len()).map(|i| reserve(line, i)).collect();
+    for (i, before) in std::mem::take(&mut line.state.reserve).into_iter().enumerate() {
+        let now = reserves[i];
+        if now * before > 0.0 && now * (2.0 * now - before) < 0.0 {
+            line.state.status[i] = match line.state.status[i] {
+                NodeStatus::Stick if line.shear(i)[0] >= 0.0 => NodeStatus::SlipForward,
+                NodeStatus::Stick => NodeStatus::SlipBackward,
+                _ => NodeStatus::Stick,
+            };
+        }
+    }
+    line.state.reserve = reserves;
+}
+
+/// Friction that a stuck node leaves unused [N/m], or the slip of one that slips, negative [m/s]: nodes at which it is about to
+/// pass zero stop to stick or to slip.
+fn reserve(line: &ContactLine, i: usize) -> f64 {
+    match line.state.status[i] {
+        NodeStatus::Open => 0.0,
+        NodeStatus::Stick => (line.friction(i) * line.normal(i) - size(line.shear(i))).max(0.0),
+        NodeStatus::SlipForward | NodeStatus::SlipBackward => -size([0, 1].map(|d| line.state.slip[d].get(i).copied().unwrap_or(0.0))),
+    }
+}
+
 /// Gives all nodes the states that they have once the patch has become longer by a factor about its middle; a change of less
 /// than half a node at either end is none.
 pub(super) fn stretch(line: &mut ContactLine, factor: f64) {

@@ -158,9 +158,12 @@ impl SlipZone {
         let Self { begin, edges: [_, trailing], .. } = *self;
         profile.take_samples(begin.min(trailing), begin.max(trailing), PLACES, &shape);
         if let Some((nodes, value)) = values.filter(|(nodes, _)| !nodes.is_empty()) {
-            let over = |i: usize| value(i) / shape(grid.x[i]);
-            let ratios: Vec<f64> = nodes.clone().map(|i| if over(i).is_finite() { over(i) } else { 0.0 }).collect();
-            let ratio = |x: f64| interpolate(&grid.x[nodes.clone()], &ratios, x);
+            let over = |i: usize| Some(value(i) / shape(grid.x[i])).filter(|ratio| ratio.is_finite()).unwrap_or(0.0);
+            let ratio = |x: f64| {
+                let next = nodes.start + grid.x[nodes.clone()].partition_point(|node| *node <= x);
+                let [low, high] = [next.saturating_sub(1).max(nodes.start), next.min(nodes.end - 1)];
+                if low == high { over(low) } else { interpolate(&grid.x[low..=high], &[over(low), over(high)], x) }
+            };
             profile.x.iter().zip(&mut profile.value).for_each(|(x, value)| *value *= ratio(*x));
         }
     }

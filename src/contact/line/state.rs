@@ -78,6 +78,9 @@ pub struct GridState {
     /// Slip velocity of the wheel relative to the rail at closed nodes as the friction law sees it, along and across, with
     /// upwind differences; zero elsewhere [m/s].
     pub slip: [Vec<f64>; 2],
+    /// Friction that stuck candidates left unused one step ago [N/m], or the slip of those that slipped, negative [m/s]; empty: there
+    /// is no such step.
+    pub reserve: Vec<f64>,
     /// Gap at open nodes, zero elsewhere \[m].
     pub gap: Vec<f64>,
     /// Displacement of the wheel less that of the rail, along and across, and its history \[m].
@@ -128,6 +131,7 @@ impl GridState {
             && of_nodes.all(|values| values.len() == components)
             && numbers.all(|value| value.is_finite())
             && [self.size, self.share].iter().all(|size| *size > 0.0 && size.is_finite())
+            && none_or(self.reserve.len(), n)
             && self.widened.iter().all(|widened| none_or(widened.len(), n))
             && self.pull.iter().all(|pull| none_or(pull.len(), n))
             && self.elastic.iter().all(|elastic| none_or(elastic.len(), components))
@@ -139,6 +143,7 @@ impl GridState {
         self.status.clone_from(&other.status);
         self.yielded.clone_from(&other.yielded);
         self.gap.clone_from(&other.gap);
+        self.reserve.clone_from(&other.reserve);
         self.lateral.clone_from(&other.lateral);
         clone_each(&mut self.slip, &other.slip);
         clone_each(&mut self.moved, &other.moved);
