@@ -145,3 +145,13 @@ fn marks_of_outputs_are_none_of_their_defaults() {
     };
     assert!(Outputs::ROWS.iter().all(|row| !same(row.read)));
 }
+
+/// Where friction changes as in the step before, so do the nodes at which stick ends: the search begins with the states in which it ends.
+#[test]
+fn a_brake_that_grows_steadily_takes_one_linear_problem_in_most_steps() {
+    let grows: Course = |inputs, t| inputs.drive.moment = -2e5 * t;
+    let counts = work("railway_ellipse", 0.0, (grows, 40));
+    let [solved, steps] = [0, 1].map(|k| counts[10..].iter().map(|count| count[k]).sum::<u64>());
+    println!("{solved} linear problems in {steps} steps of a brake that grows");
+    assert!(steps >= 30 && 10 * solved <= 14 * steps, "{counts:?}");
+}
