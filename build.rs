@@ -15,9 +15,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!(
         "cargo::rustc-env=BASIS_CODE={:016x}",
         digest(&[
+            "contact/src/axes.rs",
             "numerics/src/analytic.rs",
             "numerics/src/linalg",
-            "src/axes.rs",
             "src/fem",
             "src/material.rs",
             "src/mechanics",

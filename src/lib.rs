@@ -74,9 +74,7 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
-pub mod axes;
 pub mod config;
-pub mod contact;
 pub mod damage;
 pub mod fem;
 pub mod files;
@@ -85,10 +83,10 @@ pub mod heat;
 mod lru;
 pub mod material;
 pub mod mechanics;
-pub mod patch;
 pub mod rolling;
 pub mod simulation;
 pub mod surface;
 pub mod wheels;
 
+pub use wheelrail_contact::{axes, contact, patch};
 pub use wheelrail_numerics::{analytic, linalg, multistep, piecewise};
