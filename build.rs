@@ -14,7 +14,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=build.rs");
     println!(
         "cargo::rustc-env=BASIS_CODE={:016x}",
-        digest(&["src/analytic.rs", "src/axes.rs", "src/material.rs", "src/linalg", "src/fem", "src/mechanics"])?
+        digest(&[
+            "contact/src/axes.rs",
+            "numerics/src/analytic.rs",
+            "numerics/src/linalg",
+            "src/fem",
+            "src/material.rs",
+            "src/mechanics",
+        ])?
     );
     let target = |key: &str| std::env::var(format!("CARGO_CFG_TARGET_{key}")).unwrap_or_default();
     if target("OS") == "linux" {

@@ -74,23 +74,19 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
-pub mod analytic;
-pub mod axes;
 pub mod config;
-pub mod contact;
 pub mod damage;
 pub mod fem;
 pub mod files;
 pub mod fmi;
 pub mod heat;
-pub mod linalg;
 mod lru;
 pub mod material;
 pub mod mechanics;
-pub mod multistep;
-pub mod patch;
-pub mod piecewise;
 pub mod rolling;
 pub mod simulation;
 pub mod surface;
 pub mod wheels;
+
+pub use wheelrail_contact::{axes, contact, patch};
+pub use wheelrail_numerics::{analytic, linalg, multistep, piecewise};

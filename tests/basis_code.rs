@@ -5,8 +5,14 @@ use std::path::Path;
 use wheelrail::mechanics::basis::CODE;
 
 /// Sources on which a basis depends, besides the configuration.
-const SOURCES: [&str; 6] =
-    ["src/analytic.rs", "src/axes.rs", "src/fem", "src/linalg", "src/material.rs", "src/mechanics"];
+const SOURCES: [&str; 6] = [
+    "contact/src/axes.rs",
+    "numerics/src/analytic.rs",
+    "numerics/src/linalg",
+    "src/fem",
+    "src/material.rs",
+    "src/mechanics",
+];
 
 /// Relative names of a file, or of all files in a directory.
 fn names(root: &Path, name: &str) -> Vec<String> {

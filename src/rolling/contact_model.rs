@@ -14,7 +14,7 @@ use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
     ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction,
-    LineLayout, LineProblem, RetardedSurface, SteelLimits, SurfaceResponse, Traction,
+    LineLayout, LineProblem, RetardedSurface, SteelLimits, SurfaceResponse, Traction, Undeformed,
 };
 use crate::material::{INDENTATION, YIELD_IN_SHEAR};
 use crate::mechanics;
@@ -162,10 +162,13 @@ impl ContactModel {
         found: &mut [Line],
         scratch: &mut ActiveSetScratch,
     ) -> Result<(), ContactError> {
-        let lines = start.iter().zip(step.friction).zip(&*found).enumerate();
+        let places: Vec<_> = start.iter().map(|line| self.placement(step, line)).collect();
+        let lines = start.iter().zip(step.friction).zip(&places).zip(&*found).enumerate();
         let problem = ContactProblem {
             lines: lines
-                .map(|(k, ((line, friction), own))| self.line(step, line, *friction, (k, &own.layout)))
+                .map(|(k, (((line, friction), place), own))| {
+                    self.line(step, (line, place), *friction, (k, &own.layout))
+                })
                 .collect(),
             rigid: step.rigid,
             spin: step.spin,
@@ -178,17 +181,23 @@ impl ContactModel {
         self.solver.solve(&problem, &before, &mut after, scratch)
     }
 
+    /// Where on the surfaces a line in the state `start` stands.
+    fn placement<'a>(&'a self, step: &ContactStep, start: &'a Line) -> Placement<'a> {
+        let [distance, angle] = start.place(step.place);
+        let flattening = [&start.flattening[0], &start.flattening[1]];
+        Placement { surfaces: &self.surfaces, distance, angle, flattening }
+    }
+
     /// Problem of a line with its number and layout, which is in the state `start`.
     fn line<'a>(
         &'a self,
         step: &'a ContactStep,
-        start: &'a Line,
+        (start, place): (&'a Line, &'a Placement<'a>),
         friction: Friction,
         (number, layout): (usize, &LineLayout),
     ) -> LineProblem<'a> {
         let ThermalDeformation { radius_growth, swelling, membrane_force, .. } = start.deformation();
         let (weakening, traction) = (start.weakening(), &start.contact.traction);
-        let [distance, angle] = start.place(step.place);
         LineProblem {
             share: layout.share,
             position: layout.position,
@@ -200,14 +209,12 @@ impl ContactModel {
             membrane: [&membrane_force[0], &membrane_force[1]],
             time: step.time,
             duration: step.duration,
-            surfaces: &self.surfaces,
-            placement: Placement {
-                distance,
-                angle,
-                elevation: step.elevation - layout.gap,
+            surfaces: Undeformed {
+                radius: self.surfaces.radius,
                 growth: *radius_growth,
+                elevation: step.elevation - layout.gap,
                 swelling: [&swelling[0], &swelling[1]],
-                flattening: [&start.flattening[0], &start.flattening[1]],
+                uneven: place.unevenness(),
             },
             limits: SteelLimits {
                 pressure: self.yield_pressure,

@@ -6,7 +6,7 @@
 //! |---|---|
 //! | [`state`], [`line`](mod@line), [`thermal_state`] | data of a restart: shared ones, those of a contact line, its temperatures |
 //! | [`lines`] | sums, means and extremes over all lines |
-//! | [`control`], [`error`], [`creepages`] | inputs; failures; speeds as ratios |
+//! | [`control`], [`error`], [`creepages`], `friction_law` | inputs; failures; speeds as ratios; the friction law of the parameters |
 //! | [`support`], [`bodies`], [`rigid`], [`sideways`], [`patch_lines`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
 //! | [`brake`] | how the wheel is braked and held |
 //! | [`flattening`], [`wear`], `spreading` | what yielding, friction and conduction across the width change in a step |
@@ -28,6 +28,7 @@ pub mod elevation;
 pub mod error;
 pub mod fields;
 pub mod flattening;
+mod friction_law;
 pub mod line;
 pub mod lines;
 pub mod load_to_come;

@@ -1,6 +1,7 @@
 //! Shapes of the surfaces of wheel and rail: how they are made, and how yielding and wear change them.
 //!
-//! The contact reads [`Surfaces::gap`] and [`Surfaces::depth`], behind which everything else of this room stands:
+//! The contact reads the [`Unevenness`](crate::contact::Unevenness) of a [`Placement`], behind which everything else of this
+//! room stands:
 //!
 //! | file | content |
 //! |---|---|
@@ -9,7 +10,7 @@
 //! | `flattening` | both together, as a state remembers them for each body |
 //! | `flat` | length and depth of the deepest flat of the tread |
 //! | `wear_law` | mass that friction wears off |
-//! | `shape` | gap between the undeformed bodies: circle, profiles, flattening and thermal growth at x |
+//! | `shape` | what is missing from circle and plane at x: profiles and flattening where the wheel stands |
 
 mod dents;
 mod flat;

@@ -3,7 +3,7 @@
 use super::flattening::Flattening;
 use super::profile::{Body, Profile, ProfileError};
 use crate::config::Config;
-use crate::piecewise::Piecewise;
+use crate::contact::Unevenness;
 use std::path::Path;
 
 /// Places at which a surface is read within a step, or a half-width of the contact, and at most in all \[1].
@@ -34,21 +34,39 @@ pub struct Surfaces {
     pub rail: Profile,
 }
 
-/// Position of the wheel on the surfaces, and what heat, yielding and wear have changed of them.
+/// Position of the wheel on the surfaces, and what yielding and wear have changed of them.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement<'a> {
+    /// Surfaces as they are made.
+    pub surfaces: &'a Surfaces,
     /// Distance travelled by the wheel centre \[m].
     pub distance: f64,
     /// Angle of rotation, forward positive \[rad].
     pub angle: f64,
-    /// Height of the rail \[m].
-    pub elevation: f64,
-    /// Thermal growth of the wheel radius \[m].
-    pub growth: f64,
-    /// Swelling of the hot layers of wheel and rail under the contact \[m].
-    pub swelling: [&'a Piecewise; 2],
     /// Depths that yielding and wear have taken off wheel and rail.
     pub flattening: [&'a Flattening; 2],
+}
+
+impl<'a> Placement<'a> {
+    /// Unevenness as the contact reads it; `None`: no profiles, and nothing has flattened wheel or rail.
+    pub fn unevenness(&'a self) -> Option<&'a dyn Unevenness> {
+        let is_flattened = self.flattening.iter().any(|flattening| !flattening.is_empty());
+        (is_flattened || !self.surfaces.is_smooth()).then_some(self)
+    }
+}
+
+impl Unevenness for Placement<'_> {
+    /// Rolling brings the material ahead under the contact: at `x` lie the angle `angle + x/r` of the wheel (0: below
+    /// its centre at the start) and the distance `distance + x` of the rail.
+    fn depth(&self, x: f64) -> [f64; 2] {
+        let positions = [self.angle * self.surfaces.radius + x, self.distance + x];
+        let [wheel, rail] = self.surfaces.heights(positions);
+        let depth = |body: usize| match self.flattening[body] {
+            flattening if flattening.is_empty() => 0.0,
+            flattening => flattening.depth(positions[body]),
+        };
+        [depth(0) - wheel, depth(1) - rail]
+    }
 }
 
 impl Surfaces {
@@ -72,35 +90,6 @@ impl Surfaces {
             wheel: profile("wheel.profile", &config.wheel.profile, Body::Wheel { radius })?,
             rail: profile("rail.profile", &config.rail.profile, Body::Rail)?,
         })
-    }
-
-    /// Distance \[m] at `x` \[m] from the contact point between the bodies, undeformed and with the hub at the height
-    /// at which the cold, smooth bodies just touch: `r − √(r² − x²)` less everything that has grown into it.
-    pub fn gap(&self, x: f64, at: &Placement) -> f64 {
-        let [wheel, rail] = self.depth(x, at);
-        let swelling = at.swelling.iter().map(|layer| layer.at(x)).sum::<f64>();
-        self.round_gap(x, at) - swelling + wheel + rail
-    }
-
-    /// Gap \[m] between circle and plane at `x` \[m], less thermal growth of the radius and elevation of the rail.
-    pub fn round_gap(&self, x: f64, at: &Placement) -> f64 {
-        // The form of r − √(r² − x²) without cancellation.
-        let circle = x * x / (self.radius + (self.radius * self.radius - x * x).max(0.0).sqrt());
-        circle - at.growth - at.elevation
-    }
-
-    /// Depths \[m] by which the material of wheel and rail that lies at `x` \[m] is missing from circle and plane.
-    ///
-    /// Rolling brings the material ahead under the contact: at `x` lie the angle `angle + x/r` of the wheel (0: below
-    /// its centre at the start) and the distance `distance + x` of the rail.
-    pub fn depth(&self, x: f64, at: &Placement) -> [f64; 2] {
-        let positions = [at.angle * self.radius + x, at.distance + x];
-        let [wheel, rail] = self.heights(positions);
-        let depth = |body: usize| match at.flattening[body] {
-            flattening if flattening.is_empty() => 0.0,
-            flattening => flattening.depth(positions[body]),
-        };
-        [depth(0) - wheel, depth(1) - rail]
     }
 
     /// Heights \[m] of the profiles of wheel and rail at positions \[m] along their surfaces.
@@ -158,60 +147,30 @@ impl Surfaces {
     pub fn is_smooth(&self) -> bool {
         self.wheel.is_smooth() && self.rail.is_smooth()
     }
-
-    /// Presence of profiles or flattening on wheel or rail.
-    pub fn is_uneven(&self, at: &Placement) -> bool {
-        !self.is_smooth() || at.flattening.iter().any(|flattening| !flattening.is_empty())
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const NONE: &Piecewise = &Piecewise { x: Vec::new(), value: Vec::new() };
-
-    static UNDAMAGED: std::sync::LazyLock<Flattening> = std::sync::LazyLock::new(|| Flattening::none(0.0));
-
-    fn place<'a>(distance: f64, angle: f64, growth: f64, swelling: &'a Piecewise) -> Placement<'a> {
-        Placement {
-            distance,
-            angle,
-            elevation: 0.0,
-            growth,
-            swelling: [swelling, NONE],
-            flattening: [&UNDAMAGED, &UNDAMAGED],
-        }
-    }
-
-    #[test]
-    fn the_gap_is_that_of_a_circle_less_what_heat_adds() {
-        let surfaces = Surfaces::smooth(0.46);
-        let none = Piecewise::default();
-        let circle = |x: f64| 0.46 - (0.46f64 * 0.46 - x * x).sqrt();
-        for x in [-5e-3, 0.0, 1e-2] {
-            assert!((surfaces.gap(x, &place(0.0, 0.0, 0.0, &none)) - circle(x)).abs() < 1e-15);
-        }
-        let swelling = Piecewise { x: vec![-1e-2, 1e-2], value: vec![0.0, 2e-6] };
-        let hot = surfaces.gap(0.0, &place(0.0, 0.0, 3e-6, &swelling));
-        assert!((hot + 4e-6).abs() < 1e-18, "{hot:e}");
-    }
+    use crate::contact::Undeformed;
+    use crate::piecewise::Piecewise;
 
     #[test]
     fn a_bump_is_met_where_its_material_lies() {
+        let none = Flattening::none(0.0);
+        let gap = |surfaces: &Surfaces, distance: f64, angle: f64, x: f64| {
+            let placement = Placement { surfaces, distance, angle, flattening: [&none; 2] };
+            Undeformed { uneven: placement.unevenness(), ..Undeformed::smooth(surfaces.radius) }.gap(x)
+        };
         let bump = |at: f64| Piecewise { x: vec![at - 0.01, at, at + 0.01], value: vec![0.0, 1e-4, 0.0] };
-        let none = Piecewise::default();
         let rail = Surfaces { rail: Profile::from_samples(bump(2.0)), ..Surfaces::smooth(0.5) };
-        assert!((rail.gap(0.0, &place(2.0, 0.0, 0.0, &none)) + 1e-4).abs() < 1e-15);
-        assert!(
-            (rail.gap(0.005, &place(1.995, 0.0, 0.0, &none)) - rail.gap(0.005, &place(0.0, 0.0, 0.0, &none))).abs()
-                > 9e-5
-        );
-        assert_eq!(rail.gap(0.0, &place(1.9, 0.0, 0.0, &none)), 0.0);
+        assert!((gap(&rail, 2.0, 0.0, 0.0) + 1e-4).abs() < 1e-15);
+        assert!((gap(&rail, 1.995, 0.0, 0.005) - gap(&rail, 0.0, 0.0, 0.005)).abs() > 9e-5);
+        assert_eq!(gap(&rail, 1.9, 0.0, 0.0), 0.0);
         let wheel = Surfaces { wheel: Profile::from_samples(bump(0.5)), ..Surfaces::smooth(0.5) };
-        assert!((wheel.gap(0.0, &place(0.0, 1.0, 0.0, &none)) + 1e-4).abs() < 1e-12);
-        assert_eq!(wheel.gap(0.0, &place(0.0, 2.0, 0.0, &none)), 0.0);
-        assert!((wheel.gap(0.01, &place(0.0, 0.98, 0.0, &none)) + 1e-4 - 0.01 * 0.01).abs() < 1e-7);
+        assert!((gap(&wheel, 0.0, 1.0, 0.0) + 1e-4).abs() < 1e-12);
+        assert_eq!(gap(&wheel, 0.0, 2.0, 0.0), 0.0);
+        assert!((gap(&wheel, 0.0, 0.98, 0.01) + 1e-4 - 0.01 * 0.01).abs() < 1e-7);
     }
 
     /// Waves of 0.01 mm, of which the bound of the warning is a twenty-fifth, and a ramp that steps follow.

@@ -10,7 +10,7 @@ use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::{
     ActiveSetScratch, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction, Influence, LineKernel,
-    LineProblem, RigidMotion, Spin, SteelLimits, SurfaceResponse,
+    LineProblem, RigidMotion, Spin, SteelLimits, SurfaceResponse, Undeformed,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -127,6 +127,7 @@ impl HalfPlanes {
         let v = 10.0 * (1.0 + 0.5 * creepage);
         let omega = 10.0 * (1.0 - 0.5 * creepage) / RADIUS;
         let (flat, sound) = (Piecewise::default(), Flattening::none(0.0));
+        let placement = Placement { surfaces: &self.surfaces, distance: 0.0, angle: 0.0, flattening: [&sound, &sound] };
         let ends = [self.grid.nodes()[0], -self.grid.nodes()[0]];
         let lower = |line: &SideLine| Piecewise { x: ends.to_vec(), value: vec![line.lower; 2] };
         let swollen: Vec<_> = lines.iter().map(lower).collect();
@@ -151,14 +152,10 @@ impl HalfPlanes {
                 membrane: [&flat, &flat],
                 time: TimeDerivative::default(),
                 duration: 0.0,
-                surfaces: &self.surfaces,
-                placement: Placement {
-                    distance: 0.0,
-                    angle: 0.0,
-                    elevation: 0.0,
-                    growth: 0.0,
+                surfaces: Undeformed {
                     swelling: [swelling, &flat],
-                    flattening: [&sound, &sound],
+                    uneven: placement.unevenness(),
+                    ..Undeformed::smooth(RADIUS)
                 },
                 limits: SteelLimits::none(&flat),
                 friction: Friction::constant(line.friction),

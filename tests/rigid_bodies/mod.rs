@@ -5,11 +5,10 @@ use nalgebra::{DMatrix, DVector};
 use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::{
     ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction,
-    Influence, LineLayout, LineProblem, PatchFlexibility, RigidMotion, Spin, SteelLimits, SurfaceResponse,
+    Influence, LineLayout, LineProblem, PatchFlexibility, RigidMotion, Spin, SteelLimits, SurfaceResponse, Undeformed,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
-use wheelrail::surface::{Flattening, Placement, Surfaces};
 
 /// Displacement components at the points of the bodies.
 const PORTS: usize = 10;
@@ -95,7 +94,7 @@ impl RigidBodies {
             true => RigidMotion { drive: AxisDrive::Free { load: -load }, ..RigidMotion::held(0.0, 0.0) },
             false => RigidMotion::held(IN_THE_AIR, 0.0),
         };
-        let (flat, sound, surfaces) = (Piecewise::default(), Flattening::none(0.0), Surfaces::smooth(radius));
+        let flat = Piecewise::default();
         let line = |(line, layout): (usize, &LineLayout)| LineProblem {
             size: layout.size,
             share: layout.share,
@@ -107,15 +106,7 @@ impl RigidBodies {
             membrane: [&flat, &flat],
             time,
             duration: if time.is_stationary() { 0.0 } else { 1.0 / time.a0 },
-            surfaces: &surfaces,
-            placement: Placement {
-                elevation: -layout.gap,
-                distance: 0.0,
-                angle: 0.0,
-                growth: 0.0,
-                swelling: [&flat, &flat],
-                flattening: [&sound, &sound],
-            },
+            surfaces: Undeformed { elevation: -layout.gap, ..Undeformed::smooth(radius) },
             limits: SteelLimits::none(&flat),
             friction,
         };

@@ -31,7 +31,7 @@ impl HotLayers {
     /// the grid, and close to the patch of the `status` before where that is longer. Farther away their heat stays as it is, and
     /// what differs there is the error of wide cells.
     pub fn find(&mut self, grid: &ContactGrid, problem: &LineProblem, body: usize, status: &[NodeStatus]) {
-        let (force, layer) = (problem.membrane[body], problem.placement.swelling[body]);
+        let (force, layer) = (problem.membrane[body], problem.surfaces.swelling[body]);
         let (swelling, membrane, pull) = (&mut self.swelling[body], &mut self.membrane[body], &mut self.pull[body]);
         pull.clear();
         swelling.clear();

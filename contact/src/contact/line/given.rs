@@ -61,7 +61,7 @@ impl KnownPart {
         let layers = &self.layers;
         self.gap.extend(grid.x.iter().enumerate().map(|(i, &x)| {
             let swollen = layers.swelling_at(0, i) + layers.swelling_at(1, i);
-            problem.surfaces.round_gap(x, &problem.placement) - swollen
+            problem.surfaces.round_gap(x) - swollen
         }));
         self.powers.clear();
         if let Some(patch) = problem.patch {
@@ -96,12 +96,10 @@ impl KnownPart {
     fn find_unevenness(&mut self, grid: &ContactGrid, problem: &LineProblem) {
         let Self { gap, rail_slope, depth, .. } = self;
         rail_slope.clear();
-        if !problem.surfaces.is_uneven(&problem.placement) {
-            return;
-        }
+        let Some(uneven) = problem.surfaces.uneven else { return };
         let around = &grid.nodes()[grid.guard - 1..=grid.guard + grid.len()];
         depth.clear();
-        depth.extend(around.iter().map(|&x| problem.surfaces.depth(x, &problem.placement)));
+        depth.extend(around.iter().map(|&x| uneven.depth(x)));
         gap.iter_mut().zip(&depth[1..]).for_each(|(gap, [wheel, rail])| *gap += wheel + rail);
         rail_slope.extend((0..grid.len()).map(|i| (depth[i + 2][1] - depth[i][1]) / grid.span(i)));
     }

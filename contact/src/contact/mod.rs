@@ -20,6 +20,7 @@ pub mod problem;
 mod projection;
 mod state;
 pub mod traction;
+mod undeformed;
 
 pub use active_set::{ActiveSetScratch, ActiveSetSolver};
 pub use error::ContactError;
@@ -33,3 +34,4 @@ pub use problem::{
 };
 pub use state::ContactState;
 pub use traction::{SolvedFriction, Traction, Yielding};
+pub use undeformed::{Undeformed, Unevenness};

@@ -150,7 +150,7 @@ impl GridState {
         let retarded = problem.bodies.retarded.iter().any(Option::is_some);
         if retarded || problem.layer != 0.0 || !problem.limits.softened.is_empty() {
             Nodes::OfTheGrid
-        } else if self.yielded.contains(&true) || problem.surfaces.is_uneven(&problem.placement) {
+        } else if self.yielded.contains(&true) || problem.surfaces.uneven.is_some() {
             Nodes::Staying
         } else {
             Nodes::Following

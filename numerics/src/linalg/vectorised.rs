@@ -2,38 +2,52 @@
 
 /// Defines a function whose body is compiled for every kind of vector registers; in it `$simd` are those of the
 /// machine. The compiler turns loops over arrays into vector instructions, but not closures such as those of
-/// `array::from_fn` and `map`, which become functions of their own.
+/// `array::from_fn` and `map`, which become functions of their own. A function is that of its crate unless it is said to
+/// be `pub`.
+#[macro_export]
 macro_rules! vectorised {
     (
         $(#[$meta:meta])*
-        fn $name:ident<$life:lifetime, $S:ident $(, const $N:ident: usize)*>(
+        fn $name:ident<$life:lifetime, $S:ident $(, const $N:ident: usize)*>($($rest:tt)*) $($body:tt)*
+    ) => {
+        $crate::vectorised!(@of [pub(crate)] [$(#[$meta])*] $name, $life, $S [$($N)*] ($($rest)*) $($body)*);
+    };
+    (
+        $(#[$meta:meta])*
+        pub fn $name:ident<$life:lifetime, $S:ident $(, const $N:ident: usize)*>($($rest:tt)*) $($body:tt)*
+    ) => {
+        $crate::vectorised!(@of [pub] [$(#[$meta])*] $name, $life, $S [$($N)*] ($($rest)*) $($body)*);
+    };
+    (
+        @of [$seen:vis] [$(#[$meta:meta])*] $name:ident, $life:lifetime, $S:ident [$($N:ident)*] (
             $simd:ident, $($arg:ident: $type:ty),* $(,)?
         ) $(-> $out:ty)? $body:block
     ) => {
         $(#[$meta])*
-        pub(crate) fn $name<$life $(, const $N: usize)*>($($arg: $type),*) $(-> $out)? {
+        $seen fn $name<$life $(, const $N: usize)*>($($arg: $type),*) $(-> $out)? {
             struct Kernel<$life $(, const $N: usize)*> {
                 $($arg: $type),*
             }
-            impl<$life $(, const $N: usize)*> pulp::WithSimd for Kernel<$life $(, $N)*> {
-                type Output = $crate::linalg::vectorised::vectorised!(@output $($out)?);
+            impl<$life $(, const $N: usize)*> $crate::pulp::WithSimd for Kernel<$life $(, $N)*> {
+                type Output = $crate::vectorised!(@output $($out)?);
 
                 #[inline(always)]
-                fn with_simd<$S: pulp::Simd>(self, $simd: $S) -> Self::Output {
+                fn with_simd<$S: $crate::pulp::Simd>(self, $simd: $S) -> Self::Output {
                     let Kernel { $($arg),* } = self;
                     $body
                 }
             }
-            pulp::Arch::new().dispatch(Kernel { $($arg),* })
+            $crate::pulp::Arch::new().dispatch(Kernel { $($arg),* })
         }
     };
     (@output) => { () };
     (@output $out:ty) => { $out };
 }
-pub(crate) use vectorised;
+pub use vectorised;
 
 /// Runs `$work::<S, B>($args, at)`, or `$work::<S, B, L>`, for all blocks of registers of rows of `$k` registers; a
-/// block has up to [`BLOCK`] registers, and all have about as many.
+/// block has up to [`BLOCK`](crate::linalg::vectorised::BLOCK) registers, and all have about as many.
+#[macro_export]
 macro_rules! by_blocks {
     ($k:expr, $work:ident::<$S:ident $(, $L:ident)?>($($arg:expr),* $(,)?)) => {
         let (k, mut at): (usize, usize) = ($k, 0);
@@ -49,7 +63,7 @@ macro_rules! by_blocks {
         }
     };
 }
-pub(crate) use by_blocks;
+pub use by_blocks;
 
 /// Registers that go from row to row together: what a row passes on to the next one stays in them, and each waits for
 /// the result of the row before.
@@ -82,7 +96,7 @@ pub fn add_multiples<S: pulp::Simd, const W: usize, const N: usize>(
 
 vectorised! {
     /// Scalar product.
-    fn dot<'a, S>(simd, a: &'a [f64], b: &'a [f64]) -> f64 {
+    pub fn dot<'a, S>(simd, a: &'a [f64], b: &'a [f64]) -> f64 {
         let ((a, a_rest), (b, b_rest)) = (S::as_simd_f64s(a), S::as_simd_f64s(b));
         let mut sums = [simd.splat_f64s(0.0); 4];
         let (a_fours, a_few) = a.as_chunks::<4>();
@@ -103,7 +117,7 @@ vectorised! {
 vectorised! {
     /// `out ← out + factor · A x` with the columns of `A`, as long as `out`, whose first entries are `apart` entries
     /// apart.
-    fn add_columns<'a, S>(simd, factor: f64, columns: &'a [f64], apart: usize, x: &'a [f64], out: &'a mut [f64]) {
+    pub fn add_columns<'a, S>(simd, factor: f64, columns: &'a [f64], apart: usize, x: &'a [f64], out: &'a mut [f64]) {
         let lanes = S::F64_LANES;
         let (mut at, end) = (0, out.len());
         if columns.len() < end {
@@ -184,7 +198,7 @@ vectorised! {
     ///
     /// Not by a library: those at hand keep buffers of the thread, which hold a shared library in memory, or need
     /// columns.
-    fn multiply_transposed<'a, S>(
+    pub fn multiply_transposed<'a, S>(
         simd,
         a: &'a [f64],
         b: &'a [f64],

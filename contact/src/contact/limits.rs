@@ -53,7 +53,7 @@ pub fn borne_in_sliding(sheared: f64, ratio: f64) -> f64 {
 }
 
 /// Limits of the contact forces. In the plane, the pressure under which steel flows sideways is that of a rigid-plastic
-/// half-plane under a punch (see [`crate::material::INDENTATION`]); it falls with the temperature of what lies below,
+/// half-plane under a punch; it falls with the temperature of what lies below,
 /// and under shear ([`bearing`]).
 #[derive(Clone, Copy, Debug)]
 pub struct SteelLimits<'a> {

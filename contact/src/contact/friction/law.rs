@@ -2,7 +2,6 @@
 
 use super::heating::Heating;
 use super::slip::SlipDependence;
-use crate::config::Tuning;
 
 /// Coefficient that depends on the slip velocity of the tread and on the temperature of the contact:
 ///
@@ -22,25 +21,6 @@ pub struct FrictionLaw {
     pub softening_floor: f64,
     /// `d`: sliding distance over which the coefficient follows the law \[m]; 0: at once.
     pub memory_length: f64,
-}
-
-impl From<&Tuning> for FrictionLaw {
-    fn from(tuning: &Tuning) -> Self {
-        let slip = match tuning.falling_ratio == 1.0 {
-            true => SlipDependence::Constant,
-            false => SlipDependence::Exponential { remaining: tuning.falling_ratio, decay: tuning.falling_decay },
-        };
-        Self {
-            slip,
-            softening: tuning.softening,
-            softening_floor: tuning.softening_floor,
-            memory_length: if tuning.memory_length == 0.0 && slip.falls() {
-                Self::MEMORY
-            } else {
-                tuning.memory_length
-            },
-        }
-    }
 }
 
 impl FrictionLaw {

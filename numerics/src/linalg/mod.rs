@@ -19,7 +19,7 @@ pub mod modes;
 pub mod parity;
 pub mod pencil;
 pub mod sparse;
-pub(crate) mod vectorised;
+pub mod vectorised;
 
 pub use cholesky::{Cholesky, CholeskyPattern};
 pub use dense::DenseSystem;
@@ -29,4 +29,4 @@ pub use lagrange::{Lagrange, POINTS, Polynomial};
 pub use modes::{VibrationModes, lowest_modes, lowest_modes_of_parts};
 pub use parity::{Parity, ParityPart, Reflection};
 pub use sparse::CsrMatrix;
-pub(crate) use vectorised::{Update, multiply_transposed};
+pub use vectorised::{Update, multiply_transposed};

@@ -9,10 +9,10 @@ use super::friction::Friction;
 use super::kernel::LineKernel;
 use super::layout::NodeSize;
 use super::limits::SteelLimits;
+use super::undeformed::Undeformed;
 use crate::axes::{Axis, PerAxis};
 use crate::multistep::TimeDerivative;
 use crate::piecewise::Piecewise;
-use crate::surface::{Placement, Surfaces};
 use nalgebra::{DMatrix, DVector};
 
 /// Displacements of the ports by forces there.
@@ -181,10 +181,8 @@ pub struct LineProblem<'a> {
     pub time: TimeDerivative,
     /// Length of the step \[s]; zero: stationary.
     pub duration: f64,
-    /// Shapes of the undeformed surfaces.
-    pub surfaces: &'a Surfaces,
-    /// Where on them the wheel stands, and how heat has changed them.
-    pub placement: Placement<'a>,
+    /// Undeformed surfaces where the wheel stands.
+    pub surfaces: Undeformed<'a>,
     /// Limits of pressure and friction.
     pub limits: SteelLimits<'a>,
     /// Friction coefficient as a function of the slip at the end of the step.
@@ -209,7 +207,7 @@ impl LineProblem<'_> {
 
     /// Rolling radius of the wheel \[m], thermal growth included.
     pub fn radius(&self) -> f64 {
-        self.surfaces.radius + self.placement.growth
+        self.surfaces.radius + self.surfaces.growth
     }
 
     /// Rolling radius over that of the cold circle \[1], by which lever arms about the hub are longer on a grown wheel: bodies

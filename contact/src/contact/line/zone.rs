@@ -25,14 +25,14 @@ pub fn check(line: &ContactLine) -> Result<(), ContactError> {
 
 /// True if uneven surfaces that are displaced as at the ends of the grid would overlap beyond them.
 fn touches_beyond(line: &ContactLine) -> bool {
-    let (grid, surfaces, placement) = (line.grid, line.problem.surfaces, &line.problem.placement);
-    if !surfaces.is_uneven(placement) {
+    let (grid, surfaces) = (line.grid, &line.problem.surfaces);
+    if surfaces.uneven.is_none() {
         return false;
     }
     let (last, stride) = (grid.len() - 1, STRIDE * grid.spacing);
     [(0, -stride), (last, stride)].into_iter().any(|(end, stride)| {
         let parted = line.state.gap[end] - line.given.gap[end];
         let places = (WATCHED * grid.x[end] / stride) as usize;
-        (1..=places).any(|k| surfaces.gap(grid.x[end] + k as f64 * stride, placement) + parted < 0.0)
+        (1..=places).any(|k| surfaces.gap(grid.x[end] + k as f64 * stride) + parted < 0.0)
     })
 }

@@ -1,0 +1,21 @@
+//! Numerics of a wheel that rolls on a rail and of its contact; SI units everywhere.
+//!
+//! | room | content |
+//! |---|---|
+//! | [`analytic`] | Hertz, Carter and other closed forms: start guesses and tests |
+//! | [`multistep`] | the time formula: derivative, history, impulse |
+//! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time |
+//! | [`linalg`] | sparse factorisation, vibration modes, GMRES, loops for vector registers |
+//!
+//! `wheelrail` has these rooms under the same names; it and the contact crate are their only users so far.
+#![deny(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod analytic;
+pub mod linalg;
+pub mod multistep;
+pub mod piecewise;
+
+/// The crate of the vector registers, for functions that [`vectorised!`] defines elsewhere.
+#[doc(hidden)]
+pub use pulp;
