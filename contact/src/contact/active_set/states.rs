@@ -180,9 +180,11 @@ pub(super) fn found_anew(line: &mut ContactLine) {
 
 /// Gives nodes at which stick ends the states that they have if friction or slip changes by as much again as in the step before.
 pub(super) fn foresee(line: &mut ContactLine) {
-    let reserves: Vec<f64> = (0..line.grid.len()).map(|i| reserve(line, i)).collect();
-    for (i, before) in std::mem::take(&mut line.state.reserve).into_iter().enumerate() {
-        let now = reserves[i];
+    let mut reserves = std::mem::take(&mut line.state.reserve);
+    reserves.resize(line.grid.len(), 0.0);
+    for (i, reserve) in reserves.iter_mut().enumerate() {
+        let now = self::reserve(line, i);
+        let before = std::mem::replace(reserve, now);
         if now * before > 0.0 && now * (2.0 * now - before) < 0.0 {
             line.state.status[i] = match line.state.status[i] {
                 NodeStatus::Stick if line.shear(i)[0] >= 0.0 => NodeStatus::SlipForward,
