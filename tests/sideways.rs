@@ -3,9 +3,9 @@
 mod common;
 mod half_spaces;
 
-use half_spaces::{FRICTION, HalfSpaces, LOAD, Lines, SPEED, formula, number, numbers};
+use half_spaces::{FRICTION, HalfSpaces, LOAD, Lines, SPEED, formula, number, numbers, turning};
 use serde_json::Value as Json;
-use wheelrail::contact::{Friction, RigidMotion, Spin};
+use wheelrail::contact::{Friction, RigidMotion};
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::patch::rows::{self, PatchRow};
 
@@ -22,7 +22,7 @@ type Slip = [f64; 3];
 fn roll(spaces: &HalfSpaces, [xi, eta, phi]: Slip, time: TimeDerivative, start: &Lines) -> Lines {
     let [translation, rotation] = spaces.held(xi);
     let motion = [translation, rotation, RigidMotion::held(eta * SPEED, 0.0)];
-    let spin = Spin { per_travel: phi, per_rotation: 0.0 };
+    let spin = turning(phi);
     spaces.solve_sideways(LOAD, motion, spin, (time, Friction::constant(FRICTION)), start).unwrap()
 }
 

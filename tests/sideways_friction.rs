@@ -5,7 +5,7 @@ mod half_spaces;
 
 use half_spaces::{HalfSpaces, LOAD, SPEED, number, numbers, reference};
 use std::f64::consts::{FRAC_PI_2, LN_2};
-use wheelrail::contact::{ContactState, Friction, FrictionLaw, Heating, RigidMotion, SlipDependence, Spin};
+use wheelrail::contact::{ContactState, Drift, Friction, FrictionLaw, Heating, RigidMotion, SlipDependence};
 use wheelrail::multistep::TimeDerivative;
 
 /// Law of the reference, and its coefficient at rest \[1].
@@ -23,7 +23,7 @@ fn forces(spaces: &HalfSpaces, [xi, eta]: [f64; 2]) -> [f64; 2] {
     let [translation, rotation] = spaces.held(xi);
     let motion = [translation, rotation, RigidMotion::held(eta * SPEED, 0.0)];
     let laws = (TimeDerivative::default(), friction);
-    let lines = spaces.solve_sideways(LOAD, motion, Spin::default(), laws, &spaces.start()).unwrap();
+    let lines = spaces.solve_sideways(LOAD, motion, Drift::default(), laws, &spaces.start()).unwrap();
     let sum = |of: fn(&ContactState) -> f64| spaces.sum(LOAD, &lines, of) / (most * LOAD);
     [sum(|line| line.traction.resultant.travel), sum(|line| line.traction.resultant.lateral)]
 }

@@ -4,8 +4,8 @@ mod common;
 mod half_spaces;
 
 use common::random::Random;
-use half_spaces::{FRICTION, HalfSpaces, LOAD, Lines, SPEED, formula};
-use wheelrail::contact::{ActiveSetScratch, AxisDrive, Friction, RigidMotion, Spin};
+use half_spaces::{FRICTION, HalfSpaces, LOAD, Lines, SPEED, formula, turning};
+use wheelrail::contact::{ActiveSetScratch, AxisDrive, Friction, RigidMotion};
 use wheelrail::multistep::TimeDerivative;
 
 /// Motion of the wheel in a step.
@@ -13,7 +13,7 @@ use wheelrail::multistep::TimeDerivative;
 struct Step {
     /// Speeds of hub and rim and across [m/s].
     speeds: [f64; 3],
-    /// Spin [1/m].
+    /// Drift [1/m].
     spin: f64,
     /// Load [N]; none: the wheel is in the air.
     load: f64,
@@ -94,7 +94,7 @@ impl Count {
         motion: [RigidMotion; 3],
         start: &Lines,
     ) -> Option<Lines> {
-        let (mut scratch, spin) = (ActiveSetScratch::default(), Spin { per_travel: spin, per_rotation: 0.0 });
+        let (mut scratch, spin) = (ActiveSetScratch::default(), turning(spin));
         let laws = (time, Friction::constant(FRICTION));
         let found = spaces.solve_with(load, motion, spin, laws, start, &mut scratch);
         let solved = scratch.solved() as usize;

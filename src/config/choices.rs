@@ -57,6 +57,15 @@ choice! {
 }
 
 choice! {
+    /// Place of the wheel in its wheelset.
+    pub enum WheelsetSide named "WheelsetSide", "Which wheel of a wheelset it is" {
+        None = "none", "the host knows the wheel alone: drive.lateral_velocity, drive.spin and drive.contact_angle";
+        Left = "left", "the left wheel in the direction of travel, the mirror image of the right one";
+        Right = "right", "the right wheel in the direction of travel";
+    }
+}
+
+choice! {
     /// Contact conductance law.
     pub enum ConductanceLaw named "ConductanceLaw", "How the contact conductance depends on pressure" {
         Constant = "constant", "independent of pressure";

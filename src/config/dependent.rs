@@ -42,6 +42,12 @@ pub enum ConfigError {
         /// Parameter that has to be set, and the value.
         remedy: &'static str,
     },
+    /// A wheelset whose wheel has no lateral direction.
+    #[error(
+        "wheelset.side does not go with contact.lateral = false: set contact.lateral = true with contact.shape = ellipse or rows, or \
+         wheelset.side = none"
+    )]
+    NotSideways,
     /// Rows that are no patch.
     #[error(transparent)]
     Rows(#[from] RowsError),
@@ -53,6 +59,7 @@ impl ConfigError {
         match self {
             Self::Range { name, .. } => name,
             Self::Lateral { .. } => "contact.lateral",
+            Self::NotSideways => "wheelset.side",
             Self::Rows(_) => "contact.rows",
         }
     }

@@ -16,13 +16,15 @@ pub mod table;
 pub mod units;
 pub mod value;
 
-pub use choices::{ConductanceLaw, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear};
+pub use choices::{
+    ConductanceLaw, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear, WheelsetSide,
+};
 pub use dependent::ConfigError;
 pub use nominal::NominalPatch;
 pub use patch_rows::{PatchRows, RowsError};
 pub use table::{
     BrakeParameters, Config, ContactParameters, Damping, Files, Friction, Initial, Material, MeshParameters,
-    ModelParameters, Physics, Rail, SolverParameters, Thermal, Tuning, Vehicle, Wheel,
+    ModelParameters, Physics, Rail, SolverParameters, Thermal, Tuning, Vehicle, Wheel, WheelsetParameters,
 };
 pub use value::{display_number, display_outside, display_range};
 

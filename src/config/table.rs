@@ -6,7 +6,7 @@
 //! they come first in the reference. A row that is taken out moves to [`super::retired`].
 
 use super::choices::{
-    ConductanceLaw, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear,
+    ConductanceLaw, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear, WheelsetSide,
 };
 use super::row::parameters;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -109,6 +109,14 @@ parameters! {
             1199 basic rail_lateral_radius: f64 = 0.3, in "m" as "mm", from -100.0 to 100.0,
                 "Radius of curvature of the rail head across the direction of rolling, positive where it is convex; 0: straight. \
                  Wheel and rail together must be convex";
+        }
+        /// Wheelset to which the wheel belongs.
+        wheelset: WheelsetParameters fixed {
+            1220 basic side: WheelsetSide = WheelsetSide::None,
+                "Which wheel of a wheelset it is, with contact.lateral: hosts then give the pose of the wheelset, wheelset.lateral and \
+                 the like, and take wheelset.force_x and the like";
+            1221 basic half_spacing: f64 = 0.75, in "m", from 0.1 to 2.0,
+                "Half of the distance of the running circles, from the middle of the wheelset to the zero of contact.rows";
         }
         /// Isotropic linear elastic material of both bodies.
         material: Material fixed {

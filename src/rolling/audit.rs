@@ -29,6 +29,13 @@ fn dissipation(model: &RollingModel, state: &State) -> f64 {
         + model.wheel.sideways.dissipation(&state.side)
 }
 
+/// Forces and moment on the wheel, by whoever holds it, that work on its [`drift`](super::state::Motion::drift), and what lifts it
+/// along an inclined plane of contact, which works on its height [N/m and N].
+pub fn drifting(state: &State) -> [f64; 4] {
+    let PerAxis { travel, lateral, .. } = state.resultant();
+    [-travel, -lateral, state.spin_moment(), state.motion.rise * lateral]
+}
+
 /// Balance at a stationary start.
 pub fn start(model: &RollingModel, state: &State) -> Audit {
     let energy = energy(model, state);
@@ -45,8 +52,11 @@ pub fn advance(model: &RollingModel, td: &TimeDerivative, state: &State, next: &
     if !next.hub.prescribed.height {
         mean.height = (next.motion.height.now - state.motion.height.now) / next.clock.last_step;
     }
-    let turning = td.impulse(next.spin_moment(), state.spin_moment(), before.turning);
-    let spinning = 0.5 * (state.motion.spin + next.motion.spin) * turning;
+    let [from, to] = [state, next].map(drifting);
+    let drifting = std::array::from_fn(|k| td.impulse(to[k], from[k], before.drifting[k]));
+    let [of_along, of_across, of_spin] = [0, 1, 2].map(|k| 0.5 * (state.motion.drift[k] + next.motion.drift[k]));
+    let drifts = [of_along, of_across, of_spin, mean.height];
+    let spinning = drifts.iter().zip(&drifting).map(|(velocity, impulse)| velocity * impulse).sum::<f64>();
     let work = impulse.dot(mean) + spinning;
     let forces = [state, next].map(|state| state.resultant().height);
     let damper = [state, next].map(|state| model.wheel.damper_force(state));
@@ -69,7 +79,7 @@ pub fn advance(model: &RollingModel, td: &TimeDerivative, state: &State, next: &
         throughput: before.throughput + work.abs(),
         damping_power,
         impulse,
-        turning,
+        drifting,
         pressed: td.impulse(forces[1], forces[0], before.pressed),
         damped,
         damper,

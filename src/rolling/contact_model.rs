@@ -171,7 +171,7 @@ impl ContactModel {
                 })
                 .collect(),
             rigid: step.rigid,
-            spin: step.spin,
+            drift: step.drift,
             nominal_load: self.nominal_line_load(),
             edge_tolerance: step.edge_tolerance,
             begin,

@@ -2,7 +2,7 @@
 
 use super::bodies::Operators;
 use crate::axes::PerAxis;
-use crate::contact::{Friction, RigidMotion, Spin};
+use crate::contact::{Drift, Friction, RigidMotion};
 use crate::mechanics::response::FreeResponse;
 use crate::multistep::TimeDerivative;
 
@@ -14,8 +14,8 @@ pub struct ContactStep<'a> {
     pub free: &'a [FreeResponse; 2],
     /// The rigid motions.
     pub rigid: PerAxis<RigidMotion>,
-    /// Turning about the normal of the contact.
-    pub spin: Spin,
+    /// What the wheel does at the contact besides its rigid motions.
+    pub drift: Drift,
     /// Time formula; all zero: stationary.
     pub time: TimeDerivative,
     /// Length of the step \[s]; zero: stationary.

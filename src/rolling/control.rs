@@ -248,13 +248,27 @@ inputs! {
              which is positive where the wheel is turned to the right, both over the cosine of drive.contact_angle";
         209 lateral_force of "drive", in "N" as "kN", from -1e9 to 1e9, nominal 1e4 ramps in "N/s",
             "Lateral force on the hub in the plane of contact, to the right positive, with contact.lateral";
-        210 spin of "drive", in "1/m", from -100.0 to 100.0, nominal 0.1,
+        210 spin of "drive", in "1/m", from -100.0 to 100.0, nominal 0.1 ramps in "1/(m.s)",
             "Spin of the wheel on the rail over its velocity, with contact.lateral: seen from above it turns clockwise over the ground \
              by this angle per metre travelled (in a right-hand curve 1/radius), times the cosine of drive.contact_angle, besides what \
              drive.contact_angle makes";
-        211 contact_angle of "drive", in "rad" as "deg", from -1.5 to 1.5, nominal 0.05,
+        211 contact_angle of "drive", in "rad" as "deg", from -1.5 to 1.5, nominal 0.05 ramps in "rad/s",
             "Angle between the plane of contact and the axle, with contact.lateral: positive where the plane rises to the right, as that of \
              a right-hand wheel does. The turning wheel spins in this plane with minus wheel.omega times the sine";
+        212 lateral of "wheelset", in "m" as "mm", from -0.1 to 0.1, nominal 1e-3,
+            "Shift of the wheelset from the middle of the track, to the right positive, with wheelset.side: it moves linearly to its \
+             value at the end of the step, as all of wheelset.* do";
+        213 yaw of "wheelset", in "rad" as "mrad", from -0.5 to 0.5, nominal 1e-3,
+            "Turn of the wheelset against the track seen from above, clockwise positive (to the right), with wheelset.side";
+        214 roll of "wheelset", in "rad" as "mrad", from -0.5 to 0.5, nominal 1e-3,
+            "Lean of the wheelset against the track, positive where its right end is the lower one, with wheelset.side";
+        215 lateral_rate of "wheelset", in "m/s" as "mm/s", from -50.0 to 50.0, nominal 0.1,
+            "Rate of wheelset.lateral";
+        216 yaw_rate of "wheelset", in "rad/s" as "mrad/s", from -50.0 to 50.0, nominal 0.1,
+            "Rate of the wheelset's turn over ground, clockwise positive: in a curve more than that of wheelset.yaw, by the velocity over \
+             the radius";
+        217 roll_rate of "wheelset", in "rad/s" as "mrad/s", from -50.0 to 50.0, nominal 0.1,
+            "Rate of wheelset.roll";
         250 friction of "rail", in "1", from 0.0 to 10.0, nominal 0.3 ramps in "1/s",
             "Friction coefficient available now; unset: friction.coefficient";
         251 temperature of "rail", in "K" as "degC", from 0.0 to 1e4, nominal 300.0 ramps in "K/s",

@@ -79,6 +79,23 @@ pub enum StepError {
         /// The input with its value.
         input: String,
     },
+    /// An input of a host that knows the wheel alone, where it has told of the wheelset.
+    #[error(
+        "{input} says what the wheel does, but wheelset.side says that the wheelset is known: leave it at its start value and give \
+         wheelset.lateral, wheelset.yaw and wheelset.roll with their rates, or set wheelset.side = none"
+    )]
+    OfTheWheel {
+        /// The input with its value.
+        input: String,
+    },
+    /// A pose of a wheelset that the wheel does not belong to.
+    #[error(
+        "{input}, but the wheel belongs to no wheelset: set wheelset.side = left or right, or leave it at its start value"
+    )]
+    OfTheWheelset {
+        /// The input with its value.
+        input: String,
+    },
     /// A communication step outside its range.
     #[error("communication step = {step} s is outside its range: above 0 to {longest} s")]
     StepSize {

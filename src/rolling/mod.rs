@@ -7,7 +7,7 @@
 //! | [`state`], [`line`](mod@line), [`thermal_state`] | data of a restart: shared ones, those of a contact line, its temperatures |
 //! | [`lines`] | sums, means and extremes over all lines |
 //! | [`control`], [`error`], [`creepages`], `friction_law` | inputs; failures; speeds as ratios; the friction law of the parameters |
-//! | [`support`], [`bodies`], [`rigid`], [`sideways`], [`patch_lines`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
+//! | [`support`], [`bodies`], [`rigid`], [`sideways`], [`wheelset`], [`patch_lines`], [`contact_model`], [`thermal`] | owners of one part each, gathered in [`model`] |
 //! | [`brake`] | how the wheel is braked and held |
 //! | [`flattening`], [`wear`], `spreading` | what yielding, friction and conduction across the width change in a step |
 //! | [`step`] | one implicit step: predict, solve the contact, commit, audit, heat |
@@ -53,6 +53,7 @@ pub mod support;
 pub mod thermal;
 pub mod thermal_state;
 pub mod wear;
+pub mod wheelset;
 
 pub use control::{Drive, InputError, Inputs, Lateral, Rotation, Translation, Vertical};
 pub use error::{ModelError, StepError};

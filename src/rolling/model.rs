@@ -9,6 +9,7 @@ use super::rigid::RigidWheel;
 use super::state::State;
 use super::support::TrackSupport;
 use super::thermal::{self, ThermalModel};
+use super::wheelset::Wheelset;
 use crate::analytic;
 use crate::config::Config;
 use crate::contact::line::ContactGrid;
@@ -85,14 +86,16 @@ impl RollingModel {
             true => Some(ThermalModel::new(&config, zone, spacing, reach)?),
             false => None,
         };
+        let contact = ContactModel::new(&config, surfaces, ActiveSetSolver::new(grid), zone.max(reach))?;
+        let wheelset = Wheelset::new(&config, contact.patch.centre, contact.patch.angle);
         Ok(Self {
-            wheel: RigidWheel::new(&config),
-            tread: TreadLevel::of(&surfaces),
+            wheel: RigidWheel::new(&config, wheelset),
+            tread: TreadLevel::of(&contact.surfaces),
             bodies: {
                 let bodies = Bodies::new(bodies.wheel, bodies.rail, TrackSupport::new(&config));
                 if config.contact.shape.is_line() { bodies } else { bodies.with_lines(patch_lines::apart(&config)) }
             },
-            contact: ContactModel::new(&config, surfaces, ActiveSetSolver::new(grid), zone.max(reach))?,
+            contact,
             reach: zone.max(reach),
             patch_width: config.nominal_patch().width,
             torsion: analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, shear),

@@ -148,7 +148,22 @@ outputs! {
     506 hub_lateral_power: real "hub.lateral_power", in "W" as "kW", nominal 1e3,
         "Power of hub.force_z: that times wheel.lateral_velocity";
     507 hub_spin_power: real "hub.spin_power", in "W" as "kW", nominal 1e2,
-        "Power of what turns the contact about its normal: contact.moment_y times the angular velocity of contact.spin";
+        "Power of what turns the contact about its normal: contact.moment_y times the angular velocity of contact.spin; with \
+         wheelset.side that of all that the pose of the wheelset adds to the velocities of the wheel";
+    510 wheelset_force_x: real "wheelset.force_x", in "N" as "kN", nominal 1e4,
+        "Force of the contact on the wheelset ahead, in the axes of the track; 0 without wheelset.side, as all of wheelset.*";
+    511 wheelset_force_y: real "wheelset.force_y", in "N" as "kN", nominal 1e5,
+        "Force of the contact on the wheelset upward";
+    512 wheelset_force_z: real "wheelset.force_z", in "N" as "kN", nominal 1e4,
+        "Force of the contact on the wheelset to the right";
+    513 wheelset_moment_x: real "wheelset.moment_x", in "N.m" as "kN.m", nominal 1e5,
+        "Moment of these forces about the axis ahead through the middle of the wheelset: positive ones lower its right end";
+    514 wheelset_moment_y: real "wheelset.moment_y", in "N.m" as "kN.m", nominal 1e4,
+        "Moment of these forces about the axis upward through the middle of the wheelset: positive ones turn it to the left, against \
+         wheelset.yaw";
+    515 wheelset_moment_z: real "wheelset.moment_z", in "N.m" as "kN.m", nominal 1e4,
+        "Moment of these forces about the axis to the right through the middle of the wheelset: positive ones turn against \
+         wheel.omega";
     255 rail_energy: real "rail.energy_per_metre", in "J/m" as "kJ/m", from 0.0, nominal 1e3,
         "Friction energy per metre of rail: heat.friction_power over |wheel.velocity|, or over 0.02 m/s if that is more; 0 at \
          standstill. Equal to damage.t_gamma, which means it as a load on the wheel";

@@ -1,6 +1,7 @@
 //! Observables of a state, for the whole wheel in SI units.
 
 use super::across;
+use super::audit::drifting;
 use super::creepages::{creepage, over_mean_speed, per_metre, slide};
 use super::line::Line;
 use super::model::RollingModel;
@@ -9,6 +10,7 @@ use super::profile::{PROFILE_POINTS, profile_depths, profile_points};
 use super::state::State;
 use super::suggested_step::suggested_step;
 use super::thermal_state::ThermalState;
+use super::wheelset::Wrench;
 use crate::contact::Traction;
 use crate::damage::surface_fatigue;
 use crate::heat::HeatFlows;
@@ -107,13 +109,13 @@ pub fn on_line(model: &RollingModel, state: &State, number: usize, outputs: Outp
 
 /// Outputs across the direction of travel, and about turning.
 fn lateral_outputs(model: &RollingModel, state: &State, others: Outputs) -> Outputs {
-    let (width, velocity, spin) = (model.wheel.width, state.motion.lateral.now, state.motion.spin);
+    let (width, velocity, [_, drift, spin]) = (model.wheel.width, state.motion.lateral.now, state.motion.drift);
     let ([v, v_c], [along, aside]) = (speeds(model, state), state.tread_slip());
     let (force, moment) = (width * state.hub.force.lateral, width * state.spin_moment());
     Outputs {
         contact_force_z: width * state.resultant().lateral,
         contact_moment_y: moment,
-        contact_lateral_creepage: over_mean_speed(velocity, v, v_c),
+        contact_lateral_creepage: over_mean_speed(velocity + drift, v, v_c),
         contact_spin: over_mean_speed(spin, v, v_c),
         contact_slip_direction: if model.wheel.sideways.enabled { libm::atan2(aside, along) } else { 0.0 },
         contact_tread_slip_z: aside,
@@ -122,14 +124,36 @@ fn lateral_outputs(model: &RollingModel, state: &State, others: Outputs) -> Outp
         wheel_lateral_displacement: state.motion.aside,
         hub_force_z: force,
         hub_lateral_power: force * velocity,
-        hub_spin_power: moment * spin,
+        hub_spin_power: width * drifting_power(state),
+        ..wheelset_outputs(model, state, moment, others)
+    }
+}
+
+/// Power of what makes the wheel drift [W/m].
+fn drifting_power(state: &State) -> f64 {
+    let [along, across, spin] = state.motion.drift;
+    let velocities = [along, across, spin, state.motion.height.rate];
+    drifting(state).iter().zip(velocities).map(|(force, velocity)| force * velocity).sum()
+}
+
+/// Outputs about the middle of the wheelset, for the `moment` of the contact about its normal \[N m].
+fn wheelset_outputs(model: &RollingModel, state: &State, moment: f64, others: Outputs) -> Outputs {
+    let force = state.resultant().map(|force| force * model.wheel.width);
+    let Wrench { force, moment } = model.wheel.wheelset.wrench(&state.motion.pose, force, moment);
+    Outputs {
+        wheelset_force_x: force[0],
+        wheelset_force_y: force[1],
+        wheelset_force_z: force[2],
+        wheelset_moment_x: moment[0],
+        wheelset_moment_y: moment[1],
+        wheelset_moment_z: moment[2],
         ..others
     }
 }
 
-/// Velocity of the hub and peripheral velocity of the wheel [m/s].
+/// Velocity of the wheel and peripheral velocity at the contact [m/s].
 fn speeds(model: &RollingModel, state: &State) -> [f64; 2] {
-    [state.motion.velocity.now, model.rolling_radius(state) * state.motion.omega.now]
+    [state.motion.velocity.now + state.motion.drift[0], model.rolling_radius(state) * state.motion.omega.now]
 }
 
 /// Outputs about the motion of the wheel and what moves it.

@@ -40,6 +40,8 @@ pub struct PatchLines {
     pub symmetric: bool,
     /// Lateral position of the centre of load, about which the patch grows and shrinks \[m].
     pub centre: f64,
+    /// Angle between the plane of contact and the axle, positive where the plane rises to the right \[rad].
+    pub angle: f64,
     /// Free widths between every line and the one before it under the nominal load \[m]; none where all touch.
     pub gaps: Vec<f64>,
 }
@@ -125,7 +127,7 @@ impl PatchLines {
                 Layouts::Constant(patch.staying(load, longest_patch(config)), flexibility)
             }
         };
-        Ok(Self { layouts, nodes: LineNodes::Fixed, count, symmetric, centre, gaps })
+        Ok(Self { layouts, nodes: LineNodes::Fixed, count, symmetric, centre, angle: 0.0, gaps })
     }
 
     /// Lines with given shares of the width and one flexibility.
@@ -133,7 +135,7 @@ impl PatchLines {
         let layout = |share: &f64| LineLayout { share: *share, kernel, ..LineLayout::default() };
         let layouts = Layouts::Constant(shares.iter().map(layout).collect(), None);
         let nodes = LineNodes::Fixed;
-        Self { layouts, nodes, count: shares.len(), symmetric: false, centre: 0.0, gaps: Vec::new() }
+        Self { layouts, nodes, count: shares.len(), symmetric: false, centre: 0.0, angle: 0.0, gaps: Vec::new() }
     }
 
     /// Lines with given shares of the width and one flexibility in the place of these; their nodes go with the load as these do.

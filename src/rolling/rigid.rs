@@ -4,6 +4,7 @@ use super::control::{Drive, InputError, Inputs, Lateral, Rotation, Translation, 
 use super::error::StepError;
 use super::sideways::Sideways;
 use super::state::{Motion, State};
+use super::wheelset::Wheelset;
 use crate::axes::{Axis, PerAxis};
 use crate::config::Config;
 use crate::contact::{AxisDrive, RigidMotion};
@@ -32,13 +33,15 @@ pub struct RigidWheel {
     damping: f64,
     /// Parts that carry the contact in z.
     pub sideways: Sideways,
+    /// Its place in its wheelset.
+    pub wheelset: Wheelset,
     /// Speed of surface waves in its material [m/s].
     wave_speed: f64,
 }
 
 impl RigidWheel {
     /// From the parameters.
-    pub fn new(config: &Config) -> Self {
+    pub fn new(config: &Config, wheelset: Wheelset) -> Self {
         let width = config.width();
         let mass = mechanics::wheel_mass(config) + config.wheel.hub_mass / width;
         let lateral = mass + config.wheel.lateral_mass / width;
@@ -48,6 +51,7 @@ impl RigidWheel {
             width,
             inertia: PerAxis { travel: mass + config.vehicle.mass / width, height: mass, rotation: moment, lateral },
             sideways: Sideways::new(config, lateral),
+            wheelset,
             damping: config.vehicle.damping / width,
             wave_speed: Isotropic::from(&config.material).rayleigh_speed(),
         }
@@ -61,7 +65,10 @@ impl RigidWheel {
                 Translation::Velocity => AxisDrive::Prescribed { target: target.velocity },
             },
             height: match inputs.vertical {
-                Vertical::Force => AxisDrive::Free { load: -target.pressing() / self.width },
+                Vertical::Force => {
+                    let level = self.wheelset.level(target);
+                    AxisDrive::Free { load: -target.pressing() / (level * self.width) }
+                }
                 Vertical::Displacement => AxisDrive::Prescribed { target: target.displacement },
             },
             rotation: match inputs.rotation {
@@ -70,7 +77,7 @@ impl RigidWheel {
             },
             lateral: match inputs.lateral {
                 Lateral::Force => AxisDrive::Free { load: target.lateral_force / self.width },
-                Lateral::Velocity => AxisDrive::Prescribed { target: target.lateral_velocity },
+                Lateral::Velocity => AxisDrive::Prescribed { target: self.wheelset.lateral_velocity(target) },
             },
         }
     }

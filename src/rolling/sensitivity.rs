@@ -70,6 +70,12 @@ fn scales(model: &RollingModel, inputs: &Inputs, state: &State) -> Drive {
         lateral_force: load,
         spin: 0.1 / half_width,
         contact_angle: 0.1 * radius / half_width,
+        lateral: half_width,
+        yaw: 0.1,
+        roll: 0.1,
+        lateral_rate: speed,
+        yaw_rate: speed / radius,
+        roll_rate: speed / radius,
         displacement: approach,
         friction: 1.0,
         torque: load * radius,
@@ -98,7 +104,7 @@ pub fn difference(
     workspace: &mut Workspace,
 ) -> Result<Difference, StepError> {
     let (Origin::Stationary(inputs) | Origin::Step { inputs, .. }) = origin;
-    let acting = |drive: &Drive| model.wheel.sideways.acting(drive);
+    let acting = |drive: &Drive| model.wheel.wheelset.acting(&model.wheel.sideways.acting(drive));
     let direction = &Direction { drive: acting(&direction.drive), rate: acting(&direction.rate) };
     let scales = scales(model, inputs, state);
     let largest = |of: &Drive| of.zip(&scales, |d, s| (d / s).abs()).values().into_iter().fold(0.0, f64::max);

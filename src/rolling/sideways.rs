@@ -13,7 +13,7 @@
 use super::control::{Drive, Inputs};
 use super::error::StepError;
 use crate::config::{Config, display_number};
-use crate::contact::{AxisDrive, RigidMotion, Spin};
+use crate::contact::{AxisDrive, RigidMotion};
 use crate::multistep::{History, TimeDerivative};
 use serde::{Deserialize, Serialize};
 
@@ -139,11 +139,6 @@ impl Sideways {
         let deflection = [of(self.mounts[0], force), of(self.mounts[1], -force)].map(History::constant);
         SideMotion { deflection, ..SideMotion::default() }
     }
-}
-
-/// Turning of the wheel about the normal of the contact under inputs.
-pub fn spin(drive: &Drive) -> Spin {
-    Spin { per_travel: drive.spin, per_rotation: -libm::sin(drive.contact_angle) }
 }
 
 /// Answer of a mount in a step: `m u̇ + d u + k q = u/compliance + known`, `u̇ = a0 u + offset`.

@@ -4,6 +4,7 @@ use super::elevation::Rise;
 use super::line::Line;
 use super::sideways::SideMotion;
 use super::support::BaseMotion;
+use super::wheelset::Pose;
 use crate::axes::PerAxis;
 use crate::heat::LateralHistory;
 use crate::mechanics::response::BodyState;
@@ -152,8 +153,13 @@ pub struct Motion {
     pub aside: f64,
     /// Its lateral velocity V_z [m/s].
     pub lateral: History,
-    /// Angular velocity about the normal of the contact, clockwise from above positive [rad/s].
-    pub spin: f64,
+    /// What its surface does at the contact besides these motions, see [`Drift`](crate::contact::Drift): velocities along and
+    /// across [m/s], and angular velocity about the normal of the contact, clockwise from above positive [rad/s].
+    pub drift: [f64; 3],
+    /// Part of the lateral force that lifts the wheel, see [`Drift::rise`](crate::contact::Drift::rise) \[1].
+    pub rise: f64,
+    /// Pose of the wheelset; all zero without one.
+    pub pose: Pose,
 }
 
 impl Motion {
@@ -228,9 +234,9 @@ pub struct Audit {
     pub initial_energy: f64,
     /// Present kinetic and elastic energy [J/m].
     pub energy: f64,
-    /// Work of the hub forces, and of what turns the contact about its normal [J/m].
+    /// Work of the hub forces, and of what makes the wheel drift, see [`Motion::drift`] [J/m].
     pub work: f64,
-    /// Work of what turns the contact about its normal; part of the work of the hub forces [J/m].
+    /// Work of what makes the wheel drift; part of the work of the hub forces [J/m].
     pub spinning: f64,
     /// Work of the wheel that grows with its temperature and lifts its load [J/m].
     pub thermal_work: f64,
@@ -252,8 +258,9 @@ pub struct Audit {
     pub damping_power: f64,
     /// Impulses of the hub forces (x, y, moment, z) in the last step [N s/m, N s/m, N s, N s/m].
     pub impulse: PerAxis<f64>,
-    /// Impulse of the moment of the contact about its normal in it [N s].
-    pub turning: f64,
+    /// Impulses of the forces and the moment on the drift of the wheel in it, see [`audit::drifting`](super::audit::drifting)
+    /// [N s/m and N s].
+    pub drifting: [f64; 4],
     /// Impulse of the vertical contact force in it [N s/m].
     pub pressed: f64,
     /// Energy lost to damping and radiation in the bodies and the track in it [J/m].

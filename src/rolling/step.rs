@@ -7,11 +7,11 @@ use super::error::StepError;
 use super::flattening;
 use super::line::Line;
 use super::model::{RollingModel, Workspace};
-use super::sideways;
 use super::spreading;
 use super::state::{Brake, Controlled, HubForces, Motion, State};
 use super::thermal::{self, HeatStep, HeatSupply, ThermalLine, ThermalScratch};
 use super::wear;
+use super::wheelset::Pose;
 use crate::axes::PerAxis;
 use crate::config::Tuning;
 use crate::contact::{AxisDrive, Friction, FrictionLaw, Heating};
@@ -310,7 +310,7 @@ fn solve_and_commit(
         operators: &operators,
         free,
         rigid: model.wheel.motions(&state.motion, drives, [td, of_height], *speeds, free[0].momentum, lateral),
-        spin: sideways::spin(demand.target),
+        drift: model.wheel.wheelset.drift(demand.target),
         time: *td,
         duration: *dt,
         rise: plan.rise,
@@ -324,7 +324,9 @@ fn solve_and_commit(
     solved.map_err(|error| model.contact.failure(error, state.clock.time, *dt))?;
 
     next.motion = moved(&state.motion, [td, of_height], next.rigid(), *dt);
-    next.motion.spin = contact.spin.velocity(next.rigid());
+    next.motion.drift = contact.drift.velocities(next.rigid());
+    next.motion.rise = contact.drift.rise;
+    next.motion.pose = Pose::of(demand.target);
     next.side = state.side;
     let aside = side.advance(next.resultant().lateral, td, &mut next.motion.lateral, &mut next.side);
     next.motion.aside = moved_by(state.motion.aside, &state.motion.lateral, next.motion.lateral.now, *dt);

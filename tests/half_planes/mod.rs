@@ -9,8 +9,8 @@ use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::{
-    ActiveSetScratch, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction, Influence, LineKernel,
-    LineProblem, RigidMotion, Spin, SteelLimits, SurfaceResponse, Undeformed,
+    ActiveSetScratch, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Drift, Friction, Influence,
+    LineKernel, LineProblem, RigidMotion, SteelLimits, SurfaceResponse, Undeformed,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -169,7 +169,7 @@ impl HalfPlanes {
                 rotation: RigidMotion::held(omega, 0.0),
                 lateral: RigidMotion::held(0.0, 0.0),
             },
-            spin: Spin::default(),
+            drift: Drift::default(),
             nominal_load: NOMINAL,
             edge_tolerance: 1e-5,
             begin: Begin::Before(1.0),

@@ -10,12 +10,17 @@ use std::f64::consts::PI;
 use wheelrail::analytic::{HalfPlane, contact_modulus};
 use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::{
-    ActiveSetScratch, ActiveSetSolver, AxisDrive, ContactError, ContactState, Friction, HalfSpace, LineLayout,
-    PatchLayout, PatchMaterial, RigidMotion, Spin,
+    ActiveSetScratch, ActiveSetSolver, AxisDrive, BySpeed, ContactError, ContactState, Drift, Friction, HalfSpace,
+    LineLayout, PatchLayout, PatchMaterial, RigidMotion,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::patch::Hertz;
 use wheelrail::patch::rows::{PatchRow, equivalent_ellipse};
+
+/// A wheel that turns about the normal by an angle per distance [1/m].
+pub fn turning(per_travel: f64) -> Drift {
+    Drift { spin: BySpeed { per_travel, ..BySpeed::default() }, ..Drift::default() }
+}
 
 /// Friction coefficient [1].
 pub const FRICTION: f64 = 0.3;
@@ -162,7 +167,7 @@ impl HalfSpaces {
         laws: (TimeDerivative, Friction),
         start: &Lines,
     ) -> Result<Lines, ContactError> {
-        self.solve_sideways(load, [motion[0], motion[1], RigidMotion::held(0.0, 0.0)], Spin::default(), laws, start)
+        self.solve_sideways(load, [motion[0], motion[1], RigidMotion::held(0.0, 0.0)], Drift::default(), laws, start)
     }
 
     /// Contact under a `load`; `motion` are those of translation, rotation and lateral translation.
@@ -170,11 +175,11 @@ impl HalfSpaces {
         &self,
         load: f64,
         motion: [RigidMotion; 3],
-        spin: Spin,
+        drift: Drift,
         laws: (TimeDerivative, Friction),
         start: &Lines,
     ) -> Result<Lines, ContactError> {
-        self.solve_with(load, motion, spin, laws, start, &mut ActiveSetScratch::default())
+        self.solve_with(load, motion, drift, laws, start, &mut ActiveSetScratch::default())
     }
 
     /// [`Self::solve_sideways`] with the memory of the solver. Without a load the wheel is in the air.
@@ -182,7 +187,7 @@ impl HalfSpaces {
         &self,
         load: f64,
         motion: [RigidMotion; 3],
-        spin: Spin,
+        drift: Drift,
         laws: (TimeDerivative, Friction),
         start: &Lines,
         scratch: &mut ActiveSetScratch,
@@ -190,7 +195,7 @@ impl HalfSpaces {
         let layout = self.layout(if load > 0.0 { load } else { LOAD });
         let load = [load / WIDTH, LOAD / WIDTH];
         let (lines, flexibility) = (&layout[..], Some(&**self.patch.flexibility()));
-        let step = Step { radius: self.radius, lines, flexibility, load, motion, spin, laws };
+        let step = Step { radius: self.radius, lines, flexibility, load, motion, drift, laws };
         self.bodies.solve_with(&self.solver, &step, start, scratch)
     }
 

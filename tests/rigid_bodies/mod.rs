@@ -4,8 +4,8 @@
 use nalgebra::{DMatrix, DVector};
 use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::{
-    ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction,
-    Influence, LineLayout, LineProblem, PatchFlexibility, RigidMotion, Spin, SteelLimits, SurfaceResponse, Undeformed,
+    ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Drift, Friction,
+    Influence, LineLayout, LineProblem, PatchFlexibility, RigidMotion, SteelLimits, SurfaceResponse, Undeformed,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -35,8 +35,8 @@ pub struct Step<'a> {
     pub load: [f64; 2],
     /// Translation, rotation and lateral translation.
     pub motion: [RigidMotion; 3],
-    /// Spin.
-    pub spin: Spin,
+    /// Drift.
+    pub drift: Drift,
     /// Time formula, and friction of all lines.
     pub laws: (TimeDerivative, Friction),
 }
@@ -86,7 +86,7 @@ impl RigidBodies {
             lines: layout,
             load: [load, nominal_load],
             motion,
-            spin,
+            drift,
             laws: (time, friction),
             flexibility,
         } = *step;
@@ -113,7 +113,7 @@ impl RigidBodies {
         let problem = ContactProblem {
             lines: layout.iter().enumerate().map(line).collect(),
             rigid: PerAxis { travel: motion[0], height: hub, rotation: motion[1], lateral: motion[2] },
-            spin,
+            drift,
             nominal_load,
             edge_tolerance: 1e-5,
             begin: Begin::Before(1.0),

@@ -30,7 +30,8 @@ pub use kernel::{LineKernel, Logarithm};
 pub use layout::{LineLayout, NodeSize, PatchLayout, PatchMaterial};
 pub use limits::SteelLimits;
 pub use problem::{
-    AxisDrive, Begin, ContactProblem, Influence, LineProblem, RetardedSurface, RigidMotion, Spin, SurfaceResponse,
+    AxisDrive, Begin, BySpeed, ContactProblem, Drift, Influence, LineProblem, RetardedSurface, RigidMotion,
+    SurfaceResponse,
 };
 pub use state::ContactState;
 pub use traction::{SolvedFriction, Traction, Yielding};

@@ -218,29 +218,51 @@ impl LineProblem<'_> {
     }
 }
 
-/// Spin: the wheel turns about the vertical with the velocity `σ = per_travel · V + per_rotation · Ω` [rad/s], which adds
-/// `−σ z` to its slip along and `σ x` to that across.
+/// Velocity that is linear in the motions of the wheel: `constant + per_travel · V + per_rotation · Ω`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spin {
-    /// Turn per distance [1/m].
+pub struct BySpeed {
+    /// Velocity of a wheel at rest [m/s or rad/s].
+    pub constant: f64,
+    /// Velocity over V [1 or rad/m].
     pub per_travel: f64,
-    /// Turn per angle of rotation, the sine of an angle between the plane of the patch and the axle \[1].
+    /// Velocity over Ω [m/rad or 1].
     pub per_rotation: f64,
 }
 
-impl Spin {
-    /// Spin velocity [rad/s], given V [m/s] and Ω [rad/s].
+impl BySpeed {
+    /// The velocity, given V [m/s] and Ω [rad/s].
     pub fn velocity(self, motions: PerAxis<f64>) -> f64 {
-        self.per_travel * motions.travel + self.per_rotation * motions.rotation
+        self.constant + self.per_travel * motions.travel + self.per_rotation * motions.rotation
     }
 
-    /// Spin velocity per unit of a rigid motion [1/m, 1].
+    /// Its change per unit of a rigid motion.
     pub fn by(self, axis: Axis) -> f64 {
         match axis {
             Axis::Travel => self.per_travel,
             Axis::Rotation => self.per_rotation,
             Axis::Height | Axis::Lateral => 0.0,
         }
+    }
+}
+
+/// What the surface of the wheel does at the contact besides what its rigid motions say.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drift {
+    /// Velocity at the centre of load along, besides `V − rΩ` [m/s].
+    pub along: BySpeed,
+    /// Velocity there across, besides that of the lateral motion [m/s].
+    pub across: BySpeed,
+    /// Spin σ: the wheel turns about the normal [rad/s], which adds `−σ z` to its slip along and `σ x` to that across.
+    pub spin: BySpeed,
+    /// Tangent of the angle between the plane of contact and the track: a wheel whose axle stays level is lifted by that part of
+    /// the lateral force of the contact \[1].
+    pub rise: f64,
+}
+
+impl Drift {
+    /// Velocities along and across, and the spin, given V [m/s] and Ω [rad/s].
+    pub fn velocities(&self, motions: PerAxis<f64>) -> [f64; 3] {
+        [self.along, self.across, self.spin].map(|part| part.velocity(motions))
     }
 }
 
@@ -257,8 +279,8 @@ pub struct ContactProblem<'a> {
     pub lines: Vec<LineProblem<'a>>,
     /// Rigid motions of the wheel.
     pub rigid: PerAxis<RigidMotion>,
-    /// Spin of the wheel; only lines with lateral forces feel it.
-    pub spin: Spin,
+    /// What the wheel does at the contact besides its rigid motions; only lines with lateral forces feel it.
+    pub drift: Drift,
     /// Line load that scales tolerances [N/m].
     pub nominal_load: f64,
     /// Largest change of the weights at the contact edges over the search that counts as none, and half of the least that

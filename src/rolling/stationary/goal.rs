@@ -5,9 +5,8 @@ use super::super::control::{Drive, Inputs};
 use super::super::creepages::peripheral_velocity;
 use super::super::error::StepError;
 use super::super::model::RollingModel;
-use super::super::sideways;
 use crate::axes::{Axis, PerAxis};
-use crate::contact::{AxisDrive, RigidMotion, Spin};
+use crate::contact::{AxisDrive, Drift, RigidMotion};
 
 /// Speed of both surfaces together below which the wheel stands [m/s].
 const AT_REST: f64 = 1e-9;
@@ -118,9 +117,9 @@ impl Goal {
         }
     }
 
-    /// Turning about the normal of the contact; none at rest.
-    pub fn spin(&self) -> Spin {
-        if self.moving { sideways::spin(&self.drive) } else { Spin::default() }
+    /// What the wheel does at the contact besides its rigid motions; nothing at rest.
+    pub fn drift(&self, model: &RollingModel) -> Drift {
+        if self.moving { model.wheel.wheelset.drift(&self.drive) } else { Drift::default() }
     }
 
     /// V [m/s] and Ω [rad/s] of the state whose slip has the given speeds.

@@ -48,6 +48,7 @@ pub fn start(
 ) -> Result<State, StepError> {
     inputs.validate()?;
     model.wheel.sideways.check(inputs)?;
+    model.wheel.wheelset.check(inputs)?;
     let goal = Goal::new(model, inputs)?;
     let mut state = settled(model, tuning, &goal, workspace)?;
     let mut decisions = Decisions::default();

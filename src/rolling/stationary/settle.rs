@@ -10,6 +10,7 @@ use super::super::state::{Brake, Clock, HubForces, Motion, Pressing, State};
 use super::super::substeps;
 use super::super::thermal;
 use super::super::thermal_state::ThermalState;
+use super::super::wheelset::Pose;
 use super::goal::{Goal, Trial};
 use crate::axes::{Axis, PerAxis};
 use crate::config::Tuning;
@@ -142,7 +143,7 @@ impl Pass<'_> {
             operators: &operators,
             free,
             rigid: goal.motions(model, trial, self.touching, state.rigid(), free[0].momentum),
-            spin: goal.spin(),
+            drift: goal.drift(model),
             time: td,
             duration: 0.0,
             rise: 0.0,
@@ -229,7 +230,9 @@ fn complete(model: &RollingModel, goal: &Goal, trial: &Trial, mut state: State) 
         height: History::constant(rigid.height),
         hub_velocity: History::default(),
         lateral: History { rate: accelerations.lateral, ..History::constant(rigid.lateral) },
-        spin: goal.spin().velocity(rigid),
+        drift: goal.drift(model).velocities(rigid),
+        rise: goal.drift(model).rise,
+        pose: Pose::of(&goal.drive),
         ..state.motion
     };
     state.side = model.wheel.sideways.at_rest(state.resultant().lateral);

@@ -123,13 +123,15 @@ fn advance_until(
     let Span { inputs, h, stop } = *span;
     inputs.validate()?;
     model.wheel.sideways.check(inputs)?;
+    model.wheel.wheelset.check(inputs)?;
     if !(h > 0.0 && h <= LONGEST_STEP) {
         return Err(StepError::StepSize { step: h, longest: LONGEST_STEP });
     }
     let end = inputs.at(h);
     end.validate()?;
     let PerAxis { travel: velocity, height: displacement, rotation: omega, lateral } = state.motion.values();
-    let start = Drive { omega, velocity, displacement, lateral_velocity: lateral, ..inputs.at(0.0) };
+    let drive = state.motion.pose.into(inputs.at(0.0));
+    let start = Drive { omega, velocity, displacement, lateral_velocity: lateral, ..drive };
     let h = h + state.clock.pending;
     if h < SHORTEST_STEP {
         out.clone_from(state);

@@ -115,7 +115,7 @@ impl<'a> ActiveSet<'a> {
             together.map(|((line, start), buffers)| ContactLine::new(grid, line, start, buffers)).collect();
         for line in &mut lines {
             line.traction.rigid = problem.rigid.map(|motion| motion.start());
-            line.spin = if line.state.directions() > 1 { problem.spin } else { line.spin };
+            line.drift = if line.state.directions() > 1 { problem.drift } else { line.drift };
         }
         exchange::forces(&mut lines);
         // Lever arms of the start: without what the lines' own flexibility adds to them moments would not balance at once.

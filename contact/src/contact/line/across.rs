@@ -39,22 +39,17 @@ impl ContactLine<'_> {
         Some(if own > 0.0 { [shear[0] - along[i] / own, shear[1] - across / own] } else { shear })
     }
 
-    /// Spin velocity [rad/s].
-    pub fn spin_velocity(&self) -> f64 {
-        self.spin.velocity(self.traction.rigid)
-    }
-
     /// Takes displacements and slips across under the present forces and motions.
     pub(super) fn evaluate_across(&mut self) {
-        let (speed, to_right, spin) =
-            (self.traction.rigid.travel + self.rim_velocity(), self.upstream_right(), self.spin_velocity());
+        let (speed, to_right) = (self.traction.rigid.travel + self.rim_velocity(), self.upstream_right());
+        let [_, across, spin] = self.drift.velocities(self.traction.rigid);
         self.displace_across();
         let (grid, problem) = (self.grid, self.problem);
         for i in 0..grid.len() {
             let (mut slip, mut centred) = (0.0, 0.0);
             if self.state.status[i].is_active() {
                 let known = self.state.moved[1][i].offset(&problem.time);
-                let still = self.traction.rigid.lateral + spin * grid.x[i] + known;
+                let still = self.traction.rigid.lateral + across + spin * grid.x[i] + known;
                 let (node, displaced) = (grid.component(i) / 2, &self.iterate.displaced);
                 let rigid = still + problem.time.a0 * self.moved(1, i) - 0.5 * speed * self.stretch_by_lines(1, i);
                 let upwind = self.stencil(i, self.iterate.upwind.row(i), to_right);

@@ -15,7 +15,7 @@ use crate::axes::PerAxis;
 use crate::contact::flexibility::{ByPowers, Field};
 use crate::contact::kernel::LineKernel;
 use crate::contact::limits::RESISTANCE;
-use crate::contact::problem::{LineProblem, Spin};
+use crate::contact::problem::{Drift, LineProblem};
 use crate::contact::traction::Traction;
 use nalgebra::DVector;
 
@@ -157,8 +157,8 @@ pub struct ContactLine<'a> {
     /// Rim angle that belongs to the surface displacements at hand \[rad]: in the first iteration those of the start,
     /// while that of [`Self::frame`] is predicted.
     pub surface_angle: f64,
-    /// Spin of the wheel, if the line has a lateral direction.
-    pub spin: Spin,
+    /// What the wheel does besides its rigid motions, if the line has a lateral direction.
+    pub drift: Drift,
     resumed: Option<Resumed>,
     /// Size of the nodes over that in the step before \[1].
     pub resized: f64,
@@ -231,7 +231,7 @@ impl<'a> ContactLine<'a> {
             before: &*before,
             frame,
             surface_angle: 0.0,
-            spin: Spin::default(),
+            drift: Drift::default(),
             resumed,
             resized: grid.size / size_before,
         }

@@ -57,7 +57,8 @@ impl ContactLine<'_> {
         self.frame.rim_angle = self.surface_angle;
         let (grid, problem) = (self.grid, self.problem);
         let (v, height) = (self.traction.rigid.travel, self.traction.rigid.height);
-        let turning = self.spin_velocity() * problem.position;
+        let [along, _, spin] = self.drift.velocities(self.traction.rigid);
+        let turning = spin * problem.position - along;
         let (v_c, rim, to_right) =
             (problem.radius() * self.traction.rigid.rotation + turning, self.rim_velocity(), self.upstream_right());
         for i in 0..grid.len() {
@@ -171,7 +172,7 @@ impl ContactLine<'_> {
     pub fn pull_of_forces(&self, axis: Axis, i: usize) -> (f64, [f64; 2]) {
         match axis {
             Axis::Travel => (-self.slopes().rail(i), [-1.0, 0.0]),
-            Axis::Height => (-1.0, [0.0; 2]),
+            Axis::Height => (-1.0, [0.0, -self.drift.rise]),
             Axis::Rotation => {
                 let [tangential, normal] = self.lever_arms(i);
                 (normal, [tangential, 0.0])

@@ -102,7 +102,9 @@ impl ContactLine<'_> {
         let [stretch_wheel, stretch_rail] = upwind.stretches;
         let (travel, rotation) = (1.0 + stretch_rail, -problem.radius() * (1.0 + stretch_wheel));
         let mut motions = PerAxis { travel, rotation, ..PerAxis::default() };
-        motions.add(-problem.position, PerAxis::from_fn(|axis| self.spin.by(axis)));
+        motions.add(1.0, PerAxis::from_fn(|axis| self.drift.along.by(axis)));
+        motions.add(-problem.position, PerAxis::from_fn(|axis| self.drift.spin.by(axis)));
+        constant += self.drift.along.constant - problem.position * self.drift.spin.constant;
         constant += -v * stretch_rail + problem.radius() * self.traction.rigid.rotation * stretch_wheel;
         (AffineRow { moved, carried, angle: upwind.by_angle, motions, constant }, upwind)
     }
@@ -127,7 +129,9 @@ impl ContactLine<'_> {
         let constant = self.state.moved[1][i].offset(time)
             - motions.travel * self.traction.rigid.travel
             - motions.rotation * self.traction.rigid.rotation;
-        motions.add(x, PerAxis::from_fn(|axis| self.spin.by(axis)));
+        motions.add(1.0, PerAxis::from_fn(|axis| self.drift.across.by(axis)));
+        motions.add(x, PerAxis::from_fn(|axis| self.drift.spin.by(axis)));
+        let constant = constant + self.drift.across.constant + x * self.drift.spin.constant;
         AffineRow { motions, angle: -by_speed * radius * time.a0, constant, ..AffineRow::default() }
     }
 
