@@ -15,7 +15,7 @@ const RAIL_SHARE: f64 = 0.12;
 /// Curvatures of the gap across the direction of rolling over those along it: half axes from 1:20 to 13:1.
 pub const CURVATURES: [f64; 2] = [0.01, 50.0];
 /// Ratios of half axes of an ellipse that these curvatures allow.
-const ASPECTS: [f64; 2] = [0.05, 13.0];
+const ASPECTS: [f64; 2] = [0.05, 25.0];
 /// Smallest limit of the internal step [s].
 const SHORTEST_LIMIT: f64 = 1e-6;
 /// Largest way of the wheel during the retardation of stiffness-proportional damping [m].

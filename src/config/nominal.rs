@@ -1,6 +1,6 @@
 //! Size of the patch under the nominal load.
 
-use super::choices::ContactShape;
+use super::choices::{ContactShape, WheelsetSide};
 use super::dependent::CURVATURES;
 use super::patch_rows::{self, PatchRows, RowsError};
 use super::table::Config;
@@ -43,7 +43,8 @@ impl Config {
             ContactShape::Rows if patch_rows::is_file(text) => Err(RowsError::Unread(text.clone())),
             ContactShape::Rows => {
                 let given = PatchRows::parse(text, self.contact.rows_load)?;
-                Ok(Some(given.grown(libm::cbrt(self.model.nominal_load / self.contact.rows_load))))
+                let grown = given.grown(libm::cbrt(self.model.nominal_load / self.contact.rows_load));
+                Ok(Some(if let WheelsetSide::Left = self.wheelset.side { grown.mirrored() } else { grown }))
             }
         }
     }

@@ -10,6 +10,12 @@ const FILE: &str = ".csv";
 const COLUMNS: [&str; 3] = ["position", "half_length", "load_share"];
 /// Column that may be left out where rows lie at one distance, in metres.
 const WIDTH: &str = "width";
+/// Columns that say where the rows lie on the wheel, and their units, which a wheel that knows its wheelset needs.
+const ON_WHEEL: [(&str, &str); 3] = [("angle", "rad"), ("radius", "m"), ("lateral", "m")];
+/// Column by which tables over the shift of a wheelset tell their blocks apart, in metres.
+const SHIFT: &str = "shift";
+/// Largest angle \[rad].
+const STEEPEST: f64 = 1.5;
 /// Largest distance from the middle, half-length and width [m].
 const LARGEST: [f64; 3] = [0.5, 0.1, 0.2];
 /// Largest number of rows.
@@ -36,14 +42,33 @@ pub enum RowsError {
     /// A file that nobody has read yet.
     #[error("contact.rows: file {0} has not been read; give its content")]
     Unread(String),
+    /// A table over several shifts.
+    #[error(
+        "contact.rows has rows for shift = {0} m and {1} m, but the patch holds for a whole run: leave the rows of one shift, as \
+         `wheelrail patch --shift` makes them"
+    )]
+    Shifts(String, String),
     /// A file that cannot be read.
     #[error("contact.rows: {0}")]
     Unreadable(#[from] Unread),
 }
 
+/// Place of the centre of load of a patch on the wheel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OnWheel {
+    /// Angle between the plane of contact and the axle, positive where the plane rises to the right \[rad].
+    pub angle: f64,
+    /// Radius of rolling \[m]; `None`: that of the wheel.
+    pub radius: Option<f64>,
+    /// Distance to the right of the circle to which `wheelset.half_spacing` leads \[m]; `None`: that of the centre of load.
+    pub lateral: Option<f64>,
+}
+
 /// Patches that are described by rows side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PatchRows {
+    /// Place of the centre of load on the wheel.
+    pub on_wheel: OnWheel,
     /// The rows, at ascending positions.
     pub rows: Vec<PatchRow>,
     /// Ellipse with the second moments of area of each patch, of which there are as many as gaps between rows and one.
@@ -58,6 +83,16 @@ struct GivenRow {
     half_length: f64,
     load_share: f64,
     width: Option<f64>,
+    /// Values of [`ON_WHEEL`] and [`SHIFT`].
+    on_wheel: [Option<f64>; 3],
+    shift: Option<f64>,
+}
+
+/// Columns that a table may have.
+struct Others {
+    width: Option<usize>,
+    on_wheel: [Option<usize>; 3],
+    shift: Option<usize>,
 }
 
 /// True if a text names a file.
@@ -80,10 +115,18 @@ impl PatchRows {
         let text = text.replace(';', "\n");
         let table = Table::read(&text)?;
         let columns = table.columns(COLUMNS, &[WIDTH])?;
-        let width = table.column(WIDTH);
+        let others = Others {
+            width: table.column(WIDTH),
+            on_wheel: ON_WHEEL.map(|(name, _)| table.column(name)),
+            shift: table.column(SHIFT),
+        };
         let mut given: Vec<GivenRow> = Vec::new();
         for row in table.rows() {
-            let row = GivenRow::read(&row?, columns, width)?;
+            let row = GivenRow::read(&row?, columns, &others)?;
+            if let Some(first) = given.first().filter(|first: &&GivenRow| first.shift != row.shift) {
+                let [first, other] = [first.shift, row.shift].map(|shift| format!("{:?}", shift.unwrap_or(0.0)));
+                return Err(RowsError::Shifts(first, other));
+            }
             row.check(given.last().map(|row| row.position)).map_err(|problem| wrong(row.line, problem))?;
             given.push(row);
         }
@@ -106,7 +149,26 @@ impl PatchRows {
         };
         let rows: Vec<_> = given.iter().zip(sides).map(row).collect();
         let shapes: Option<Vec<_>> = rows::patches(&rows).map(rows::equivalent_ellipse).collect();
-        shapes.map(|shapes| Self { rows, shapes }).ok_or(RowsError::Count(given.len()))
+        let under_load = |k: usize| {
+            let of_row = |row: &GivenRow| row.on_wheel[k].map(|value| value * row.load_share / sum);
+            given.iter().map(of_row).sum::<Option<f64>>()
+        };
+        let on_wheel = OnWheel { angle: under_load(0).unwrap_or(0.0), radius: under_load(1), lateral: under_load(2) };
+        shapes.map(|shapes| Self { on_wheel, rows, shapes }).ok_or(RowsError::Count(given.len()))
+    }
+
+    /// Those of a left wheel, of which these are the mirror image.
+    pub fn mirrored(&self) -> Self {
+        let OnWheel { angle, radius, lateral } = self.on_wheel;
+        let gaps = self.rows.iter().skip(1).map(|row| row.gap).rev();
+        let gaps: Vec<f64> = std::iter::once(0.0).chain(gaps).collect();
+        let row = |(row, gap): (&PatchRow, f64)| PatchRow { position: -row.position, gap, ..*row };
+        let shape = |shape: &EquivalentEllipse| EquivalentEllipse { centre: -shape.centre, ..*shape };
+        Self {
+            on_wheel: OnWheel { angle: -angle, radius, lateral: lateral.map(|lateral| -lateral) },
+            rows: self.rows.iter().rev().zip(gaps).map(row).collect(),
+            shapes: self.shapes.iter().rev().map(shape).collect(),
+        }
     }
 
     /// The patches with `scale` times their lengths, about their common centre of load.
@@ -120,6 +182,7 @@ impl PatchRows {
             centre: scale * shape.centre + shift,
         };
         Self {
+            on_wheel: self.on_wheel,
             rows: rows.map(|row| PatchRow { position: row.position + shift, ..row }).collect(),
             shapes: self.shapes.iter().map(shape).collect(),
         }
@@ -195,14 +258,23 @@ impl GivenRow {
     fn read(
         row: &TableRow,
         [position, half_length, load_share]: [usize; 3],
-        width: Option<usize>,
+        others: &Others,
     ) -> Result<Self, TableError> {
+        let number = |column: Option<usize>, name: &str, unit: &str| {
+            column.map(|column| row.number(column, name, unit)).transpose()
+        };
+        let mut on_wheel = [None; 3];
+        for (value, (column, (name, unit))) in on_wheel.iter_mut().zip(others.on_wheel.iter().zip(ON_WHEEL)) {
+            *value = number(*column, name, unit)?;
+        }
         Ok(Self {
             line: row.line,
             position: row.number(position, COLUMNS[0], "m")?,
             half_length: row.number(half_length, COLUMNS[1], "m")?,
             load_share: row.number(load_share, COLUMNS[2], "1")?,
-            width: width.map(|column| row.number(column, WIDTH, "m")).transpose()?,
+            width: number(others.width, WIDTH, "m")?,
+            on_wheel,
+            shift: number(others.shift, SHIFT, "m")?,
         })
     }
 
@@ -228,6 +300,19 @@ impl GivenRow {
         }
         if let Some(width) = self.width.filter(|width| !(*width > 0.0 && *width <= widest)) {
             return Err(format!("width = {width} m is outside 0 (excluded) to {widest} m; columns are in metres"));
+        }
+        if let Some(angle) = self.on_wheel[0].filter(|angle| angle.abs() > STEEPEST) {
+            return Err(format!(
+                "angle = {angle} rad is outside -{STEEPEST} to {STEEPEST} rad; columns are in radians"
+            ));
+        }
+        if let Some(radius) = self.on_wheel[1].filter(|radius| !(*radius > 0.0 && *radius <= 10.0)) {
+            return Err(format!(
+                "radius = {radius} m is outside 0 (excluded) to 10 m; it is that of rolling, in metres"
+            ));
+        }
+        if let Some(lateral) = self.on_wheel[2].filter(|lateral| lateral.abs() > farthest) {
+            return Err(format!("lateral = {lateral} m is outside -{farthest} to {farthest} m; columns are in metres"));
         }
         match before.filter(|before| *before >= position) {
             Some(before) => {

@@ -9,6 +9,7 @@ use super::patch_lines::PatchLines;
 use super::standing;
 use super::state::State;
 use super::thermal_state::ThermalDeformation;
+use super::wheelset::Wheelset;
 use crate::axes::{Axis, PerAxis};
 use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
@@ -35,6 +36,8 @@ pub struct ContactModel {
     nominal_half_width: f64,
     /// Width of the line contact [m].
     width: f64,
+    /// Radius of rolling less that of the circle \[m].
+    larger: f64,
     /// Flexibility of the layer between the surfaces [m/Pa].
     layer: f64,
     /// Pressure at which cold steel yields [Pa]; infinite: never.
@@ -51,8 +54,11 @@ impl ContactModel {
     /// # Errors
     /// Rows of a patch without meaning.
     pub fn new(config: &Config, surfaces: Surfaces, solver: ActiveSetSolver, reach: f64) -> Result<Self, RowsError> {
+        let patch = PatchLines::new(config, surfaces.is_smooth(), reach)?;
+        let radius = Wheelset::new(config, patch.centre, patch.on_wheel).radius;
         Ok(Self {
-            patch: PatchLines::new(config, surfaces.is_smooth(), reach)?,
+            larger: radius - config.wheel.radius,
+            patch,
             surfaces,
             solver,
             nominal_load: config.model.nominal_load,

@@ -87,7 +87,7 @@ impl RollingModel {
             false => None,
         };
         let contact = ContactModel::new(&config, surfaces, ActiveSetSolver::new(grid), zone.max(reach))?;
-        let wheelset = Wheelset::new(&config, contact.patch.centre, contact.patch.angle);
+        let wheelset = Wheelset::new(&config, contact.patch.centre, contact.patch.on_wheel);
         Ok(Self {
             wheel: RigidWheel::new(&config, wheelset),
             tread: TreadLevel::of(&contact.surfaces),
@@ -143,9 +143,9 @@ impl RollingModel {
         self.patch_width / (self.wheel.width * state.covered())
     }
 
-    /// Outer radius of the wheel in a state \[m]: the cold one and its growth by the bulk temperature.
+    /// Radius of rolling in a state \[m]: that of the cold wheel at the contact and its growth by the bulk temperature.
     pub fn rolling_radius(&self, state: &State) -> f64 {
-        self.wheel.radius + state.growth()
+        self.wheel.wheelset.radius + state.growth()
     }
 
     /// True if a state has the dimensions of this model and only finite numbers in its contact forces.

@@ -1,7 +1,7 @@
 //! Lines of the patch in which wheel and rail touch.
 
 use super::line::Line;
-use crate::config::{Config, ContactShape, PatchRows, RowsError};
+use crate::config::{Config, ContactShape, OnWheel, PatchRows, RowsError};
 use crate::contact::{
     HalfSpace, LineKernel, LineLayout, Logarithm, NodeSize, PatchFlexibility, PatchLayout, PatchMaterial,
 };
@@ -40,8 +40,8 @@ pub struct PatchLines {
     pub symmetric: bool,
     /// Lateral position of the centre of load, about which the patch grows and shrinks \[m].
     pub centre: f64,
-    /// Angle between the plane of contact and the axle, positive where the plane rises to the right \[rad].
-    pub angle: f64,
+    /// Place of the centre of load on the wheel.
+    pub on_wheel: OnWheel,
     /// Free widths between every line and the one before it under the nominal load \[m]; none where all touch.
     pub gaps: Vec<f64>,
 }
@@ -104,13 +104,17 @@ impl PatchLines {
         let unit = config.nominal_patch().half_length;
         let (lines, radius, width, load) =
             (config.contact.lines, config.wheel.radius, config.width(), config.model.nominal_load);
-        let patch = match (config.contact.shape, config.patch_rows()?) {
+        let rows = config.patch_rows()?;
+        let on_wheel = rows.as_ref().map(|rows| rows.on_wheel).unwrap_or_default();
+        let patch = match (config.contact.shape, rows) {
             (ContactShape::Line, _) => {
                 let patch = Self::constant(&[1.0], LineKernel::of_half_plane(steel.half_plane(), 1.0));
                 let following = LineNodes::Following { load };
                 return Ok(Self { nodes: if smooth { following } else { LineNodes::Fixed }, ..patch });
             }
-            (_, Some(PatchRows { rows, shapes })) => PatchLayout::rows(rows, &shapes, material, lines, radius, width),
+            (_, Some(PatchRows { rows, shapes, .. })) => {
+                PatchLayout::rows(rows, &shapes, material, lines, radius, width)
+            }
             (_, None) => PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load),
         };
         let patch = patch.scaling(unit, LEAST_SIZE);
@@ -127,7 +131,7 @@ impl PatchLines {
                 Layouts::Constant(patch.staying(load, longest_patch(config)), flexibility)
             }
         };
-        Ok(Self { layouts, nodes: LineNodes::Fixed, count, symmetric, centre, angle: 0.0, gaps })
+        Ok(Self { layouts, nodes: LineNodes::Fixed, count, symmetric, centre, on_wheel, gaps })
     }
 
     /// Lines with given shares of the width and one flexibility.
@@ -135,7 +139,15 @@ impl PatchLines {
         let layout = |share: &f64| LineLayout { share: *share, kernel, ..LineLayout::default() };
         let layouts = Layouts::Constant(shares.iter().map(layout).collect(), None);
         let nodes = LineNodes::Fixed;
-        Self { layouts, nodes, count: shares.len(), symmetric: false, centre: 0.0, angle: 0.0, gaps: Vec::new() }
+        Self {
+            layouts,
+            nodes,
+            count: shares.len(),
+            symmetric: false,
+            centre: 0.0,
+            on_wheel: OnWheel::default(),
+            gaps: Vec::new(),
+        }
     }
 
     /// Lines with given shares of the width and one flexibility in the place of these; their nodes go with the load as these do.

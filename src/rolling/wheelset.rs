@@ -11,7 +11,7 @@
 use super::control::{Drive, Inputs};
 use super::error::StepError;
 use crate::axes::PerAxis;
-use crate::config::{Config, WheelsetSide, display_number};
+use crate::config::{Config, OnWheel, WheelsetSide, display_number};
 use crate::contact::{BySpeed, Drift};
 use serde::{Deserialize, Serialize};
 
@@ -62,23 +62,24 @@ pub struct Wheelset {
     side: Option<f64>,
     /// Lateral place of the centre of load from the middle \[m].
     arm: f64,
-    /// Radius of the wheel \[m].
-    radius: f64,
+    /// Radius of rolling \[m].
+    pub radius: f64,
     /// Angle between the plane of contact and the axle \[rad].
     angle: f64,
 }
 
 impl Wheelset {
-    /// From the parameters; `centre` is the lateral place of the centre of load in the patch \[m], `angle` that between plane of
-    /// contact and axle \[rad].
-    pub fn new(config: &Config, centre: f64, angle: f64) -> Self {
+    /// From the parameters; `centre` is the lateral place of the centre of load in the patch \[m]. A wheel without a wheelset rolls
+    /// on its own radius, whatever its rows say.
+    pub fn new(config: &Config, centre: f64, on_wheel: OnWheel) -> Self {
         let side = match config.wheelset.side {
             WheelsetSide::None => None,
             WheelsetSide::Left => Some(-1.0),
             WheelsetSide::Right => Some(1.0),
         };
-        let arm = side.map_or(0.0, |side| side * config.wheelset.half_spacing + centre);
-        Self { side, arm, radius: config.wheel.radius, angle }
+        let OnWheel { angle, radius, lateral } = if side.is_some() { on_wheel } else { OnWheel::default() };
+        let arm = side.map_or(0.0, |side| side * config.wheelset.half_spacing + lateral.unwrap_or(centre));
+        Self { side, arm, radius: radius.unwrap_or(config.wheel.radius), angle }
     }
 
     /// Refuses inputs of the one kind of host where the other one is told of.
