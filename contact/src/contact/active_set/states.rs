@@ -206,7 +206,9 @@ fn reserve(line: &ContactLine, i: usize) -> f64 {
     match line.state.status[i] {
         NodeStatus::Open => 0.0,
         NodeStatus::Stick => (line.friction(i) * line.normal(i) - size(line.shear(i))).max(0.0),
-        NodeStatus::SlipForward | NodeStatus::SlipBackward => -size([0, 1].map(|d| line.state.slip[d].get(i).copied().unwrap_or(0.0))),
+        NodeStatus::SlipForward | NodeStatus::SlipBackward => {
+            -size([0, 1].map(|d| line.state.slip[d].get(i).copied().unwrap_or(0.0)))
+        }
     }
 }
 
