@@ -71,7 +71,7 @@ pub fn outputs(model: &RollingModel, state: &State, others: Outputs) -> Outputs 
         line_force_x: all(&|seen| seen.width * seen.traction().resultant.travel),
         line_force_y: all(&|seen| seen.width * seen.traction().resultant.height),
         line_force_z: all(&|seen| seen.width * seen.traction().resultant.lateral),
-        line_tread_slip_z: all(&|seen| seen.line.lateral_slip()),
+        line_tread_slip_z: all(&|seen| seen.traction().friction.lateral_slip),
         line_pressure_max: all(&|seen| seen.traction().pressure_max),
         line_stick: all(&|seen| seen.traction().stick_fraction),
         line_friction: all(&|seen| seen.traction().friction.coefficient),

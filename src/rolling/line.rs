@@ -1,8 +1,7 @@
 //! One of the contact lines side by side.
 
 use super::thermal_state::{ThermalDeformation, ThermalState, Weakening};
-use crate::contact::{ContactState, LineLayout, Traction};
-use crate::piecewise::weighted_mean;
+use crate::contact::{ContactState, LineLayout};
 use crate::surface::Flattening;
 use serde::{Deserialize, Serialize};
 
@@ -38,12 +37,6 @@ impl Line {
     /// angle]`.
     pub fn place(&self, [distance, angle]: [f64; 2]) -> [f64; 2] {
         [distance, angle - self.contact.rim_angle()]
-    }
-
-    /// Mean slip velocity across the direction of travel, weighted with the pressure [m/s]; zero without contact.
-    pub fn lateral_slip(&self) -> f64 {
-        let Traction { pressure, lateral_slip, .. } = &self.contact.traction;
-        weighted_mean(pressure, &lateral_slip.x, &lateral_slip.value)
     }
 
     /// Highest rise of temperature in the contact \[K].

@@ -84,7 +84,7 @@ impl State {
     /// Mean slip velocity of the tread in the contact: x, z [m/s].
     pub fn tread_slip(&self) -> [f64; 2] {
         let along = self.mean_under_load(|line| line.contact.traction.friction.tread_slip);
-        [along, self.mean_under_load(Line::lateral_slip)]
+        [along, self.mean_under_load(|line| line.contact.traction.friction.lateral_slip)]
     }
 
     /// Rigid motions (V [m/s], U \[m], Ω [rad/s]) with which the contact forces were found.

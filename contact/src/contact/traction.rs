@@ -74,6 +74,8 @@ pub struct SolvedFriction {
     /// Slip velocity that gave it: the mean over the patches, weighted with the pressure, of the velocity of the wheel
     /// surface relative to that of the rail, at the end of the step; positive in braking, zero without contact [m/s].
     pub tread_slip: f64,
+    /// Its lateral part [m/s].
+    pub lateral_slip: f64,
     /// Change of the excess of the coefficient over its law by the coefficient \[1], with which the search of the next step
     /// begins; 0: it is not known.
     pub law_slope: f64,
@@ -125,6 +127,7 @@ impl SolvedFriction {
     /// Takes away the slip and its dissipation.
     fn rest(&mut self) {
         (self.power, self.work, self.tread_slip, self.slip_speed, self.excess) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        self.lateral_slip = 0.0;
         self.dissipation.value.fill(0.0);
     }
 }

@@ -55,6 +55,14 @@ struct Solver<const C: usize, const N: usize> {
     /// Units in which unknowns are counted.
     units: Vec<f64>,
     system: DenseSystem,
+    memory: SmallMemory,
+}
+
+/// Memory of [`Small`].
+#[derive(Default)]
+struct SmallMemory {
+    between: Vec<f64>,
+    bodies: Vec<BodyRows>,
 }
 
 /// Numbering of the unknowns of the small system: forces on the ports and motions, moments and rim angle of every line.
@@ -123,11 +131,12 @@ impl<const C: usize, const N: usize> Solver<C, N> {
                 return Err(singular());
             }
         }
-        let small = Small::new(lines, axes, &unknowns.axes);
+        let small = Small::new(lines, axes, &unknowns.axes, std::mem::take(&mut self.memory));
         self.write(&small);
         let solution = self.solution().ok_or_else(singular)?;
         let felt: Vec<Felt<C>> = (0..small.places.lines).map(|k| small.felt(k, &solution)).collect();
         let changes = &solution[small.places.motions()];
+        self.memory = SmallMemory { between: small.between, bodies: small.bodies };
         for ((own, line), felt) in self.lines.iter().zip(&mut *lines).zip(&felt) {
             line.state.forces.fill(0.0);
             if given.is_none() {
@@ -211,14 +220,17 @@ fn row<'a>(rows: &'a mut [f64], constants: &'a mut [f64], at: usize) -> SmallRow
 }
 
 impl<'a, 'b> Small<'a, 'b> {
-    fn new(lines: &'a [ContactLine<'b>], axes: &'a Axes<'a>, sought: &'a [Axis]) -> Self {
+    fn new(lines: &'a [ContactLine<'b>], axes: &'a Axes<'a>, sought: &'a [Axis], memory: SmallMemory) -> Self {
         let felt = lines.iter().all(|line| line.problem.patch.is_some());
         let directions = if felt { lines[0].state.directions() } else { 0 };
-        let (places, mut between) = (Numbering { lines: lines.len(), directions, motions: sought.len() }, Vec::new());
+        let SmallMemory { mut between, mut bodies } = memory;
+        between.clear();
+        bodies.clear();
+        let places = Numbering { lines: lines.len(), directions, motions: sought.len() };
         for (line, direction) in lines.iter().flat_map(|line| (0..directions).map(move |direction| (line, direction))) {
             line.slips_by_moments(direction, [lines.len(), directions], &mut between);
         }
-        let bodies = lines.iter().map(|line| line.body_rows(sought, axes.gains())).collect();
+        bodies.extend(lines.iter().map(|line| line.body_rows(sought, axes.gains())));
         Self { lines, axes, sought, places, between, bodies, points: lines[0].grid.points.nodes() }
     }
 

@@ -178,9 +178,13 @@ pub(super) fn found_anew(line: &mut ContactLine) {
     line.state.status.iter_mut().filter(|s| s.is_stuck()).for_each(|s| *s = founding);
 }
 
-/// Gives nodes at which stick ends the states that they have if friction or slip changes by as much again as in the step before.
+/// Gives nodes at which stick ends the states that they have if friction or slip changes by as much again as in the step before;
+/// on rough surfaces every step is another one.
 pub(super) fn foresee(line: &mut ContactLine) {
     let mut reserves = std::mem::take(&mut line.state.reserve);
+    if !line.given.rail_slope.is_empty() {
+        return;
+    }
     reserves.resize(line.grid.len(), 0.0);
     for (i, reserve) in reserves.iter_mut().enumerate() {
         let now = self::reserve(line, i);

@@ -25,6 +25,7 @@ fn finish_line(line: &mut ContactLine) {
     if line.state.directions() > 1 {
         let [along, across] = line.mean_slips();
         line.traction.friction.slip_speed = libm::hypot(along, across);
+        line.traction.friction.lateral_slip = across;
         line.traction.spin_moment = line.spin_moment();
     }
     let to_right = line.upstream_right();
