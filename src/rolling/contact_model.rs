@@ -217,8 +217,9 @@ impl ContactModel {
             duration: step.duration,
             surfaces: Undeformed {
                 radius: self.surfaces.radius,
-                growth: *radius_growth,
-                elevation: step.elevation - layout.gap,
+                // On another radius than that of its circle the wheel stands as much higher over the rail.
+                growth: *radius_growth + self.larger,
+                elevation: step.elevation - layout.gap - self.larger,
                 swelling: [&swelling[0], &swelling[1]],
                 uneven: place.unevenness(),
             },
