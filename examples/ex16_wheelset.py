@@ -6,10 +6,9 @@ A conical wheelset runs along straight track, held by springs in a frame that mo
 the start. Below the critical speed the motion dies out, above it grows to a limit cycle. The table compares frequency and growth
 with those of linear theory, whose creep coefficients are measured on the same FMU.
 
-The wheelset is the master's: mass, springs, and where the wheels are. A wheel is told how it moves on its rail (`inputs`) and
-answers with the force of the rail (`forces`), as docs/coupling.md says. Replace `Wheelset.step` to couple a vehicle of your own.
-Left out are that the wheelset rolls about the track, that lateral forces carry a part of the load, and by default the angle of the
-cones (`contact_angle`).
+The wheelset is the master's: mass and springs. Both wheels are told its pose (`inputs`) and answer with force and moment about its
+middle, as docs/coupling.md says. Replace `Wheelset.step` to couple a vehicle of your own. Left out is that the wheelset leans.
+An ellipse says nothing of the shape of the wheel: the example gives the radius of the cones as a factor on the angular velocity.
 """
 
 import argparse
@@ -29,9 +28,11 @@ FIXED = {
     "preset": "railway_ellipse", "contact.lateral": True, "thermal.enabled": False, "friction.softening": 0.0, "physics.yielding": False,
     "model.nominal_load": LOAD,
 }  # fmt: skip
+SIDES = {1: "right", -1: "left"}
 CONTROL = {"control.rotation": "velocity", "control.translation": "velocity"}
-FELT = ("contact.force_x", "contact.force_z", "contact.force_y", "contact.moment_y")
-RIGHT, LEFT = 1, -1
+FELT = ("wheelset.force_z", "wheelset.moment_y")
+OF_CONTACT = ("contact.force_x", "contact.force_z", "contact.force_y", "contact.moment_y")
+RIGHT, LEFT = SIDES
 
 
 @dataclass
@@ -49,28 +50,21 @@ class Wheelset:
     yaw_stiffness: float = 2e6  # N m/rad
     half_spacing: float = 0.75  # m
     conicity: float = 0.1
-    contact_angle: float = 0.0  # of the right-hand wheel [rad]
+
+    def parameters(self, side):
+        """Parameters of a wheel."""
+        return FIXED | {"initial.velocity": self.speed, "wheelset.side": SIDES[side], "wheelset.half_spacing": self.half_spacing}
 
     def inputs(self, side, radius):
         """What a wheel is told, at the end of the coming step."""
-        angle, turned = side * self.contact_angle, [np.cos(self.yaw), np.sin(self.yaw)]
-        along = self.speed * turned[0] + self.y_rate * turned[1]
         return {
-            "drive.velocity": along - side * self.half_spacing * self.yaw_rate,
+            "drive.velocity": self.speed,
             "drive.omega": self.speed / radius * (1.0 + side * self.conicity * self.y / radius),
-            "drive.lateral_velocity": (self.y_rate * turned[0] - self.speed * turned[1]) / np.cos(angle),
-            "drive.spin": self.yaw_rate * np.cos(angle) / self.speed,
-            "drive.contact_angle": angle,
-            "drive.load": LOAD / np.cos(angle),
+            "wheelset.lateral": self.y,
+            "wheelset.lateral_rate": self.y_rate,
+            "wheelset.yaw": self.yaw,
+            "wheelset.yaw_rate": self.yaw_rate,
         }
-
-    def forces(self, side, felt):
-        """Force to the right [N] and moment about the vertical, clockwise [N m], of a wheel on the wheelset."""
-        along, across, normal, moment = felt
-        angle = side * self.contact_angle
-        level = across * np.cos(angle) - normal * np.sin(angle)  # along the axle
-        force = level * np.cos(self.yaw) + along * np.sin(self.yaw)
-        return np.array([force, -side * self.half_spacing * along - moment * np.cos(angle)])
 
     def step(self, force, moment, h):
         """Moves on under force and moment of both contacts: the trapezoidal rule in the springs."""
@@ -89,19 +83,24 @@ def hunting(fmu, wheelset, duration=DURATION, step=STEP, ahead=True):
 
     Contacts act on the wheelset with the forces of the middle of the coming step, extrapolated from the last two steps. Without
     `ahead` those of the last step are held, which damps the motion falsely."""
-    parameters, rows = FIXED | {"initial.velocity": wheelset.speed}, []
-    with Wheel(fmu, parameters, CONTROL) as right, Wheel(fmu, parameters, CONTROL) as left:
+    made = [Wheel(fmu, wheelset.parameters(side), CONTROL) for side in SIDES]
+    rows = []
+    with made[0] as right, made[1] as left:
         wheels = {RIGHT: right, LEFT: left}
         radius = right.get("wheel.radius")
-        felt = {side: wheel.get(*FELT) for side, wheel in wheels.items()}
-        now = before = sum(wheelset.forces(side, felt[side]) for side in wheels)
+
+        def load():
+            """Force to the right [N] and moment clockwise [N m] of both wheels."""
+            forces, moments = np.transpose([wheel.get(*FELT) for wheel in wheels.values()])
+            return np.array([forces.sum(), -moments.sum()])
+
+        now = before = load()
         for k in range(round(duration / step)):
             wheelset.step(*(1.5 * now - 0.5 * before if ahead else now), step)
             for side, wheel in wheels.items():
                 wheel.set(wheelset.inputs(side, radius))
                 wheel.step(step)
-                felt[side] = wheel.get(*FELT)
-            now, before = sum(wheelset.forces(side, felt[side]) for side in wheels), now
+            now, before = load(), now
             rows.append((step * (k + 1), wheelset.y, wheelset.yaw, now[0]))
             if abs(wheelset.y) > 0.02:
                 break
@@ -116,7 +115,7 @@ def coefficients(fmu, speed):
         with Wheel(fmu, parameters, CONTROL | {"drive.lateral_velocity": lateral * speed, "drive.spin": spin}) as wheel:
             for _ in range(10):
                 wheel.step(STEP)
-            found[bool(creepage), bool(lateral)] = wheel.get(*FELT, "contact.creepage", "contact.lateral_creepage", "contact.spin")
+            found[bool(creepage), bool(lateral)] = wheel.get(*OF_CONTACT, "contact.creepage", "contact.lateral_creepage", "contact.spin")
             radius = wheel.get("wheel.radius")
     along, across, turned = found[True, False], found[False, True], found[False, False]
     f11, f22, f23 = -along[0] / along[4], -across[1] / across[5], -turned[1] / turned[6]
