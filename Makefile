@@ -97,8 +97,8 @@ OUT ?= results
 SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
 SITE := $(VENV)/.site
-SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml slave/Cargo.toml \
-	$(shell find src slave/src resources docs/theory -type f) \
+SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml contact/Cargo.toml numerics/Cargo.toml slave/Cargo.toml \
+	$(shell find src contact/src numerics/src slave/src resources docs/theory -type f) \
 	docs/fmu.html docs/page.html docs/style.css docs/profiles.md docs/patches.md docs/coupling.md docs/validation.md docs/speed.md \
 	docs/flat.png docs/hunting.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
@@ -123,8 +123,12 @@ built: $(BUILT)
 
 packed: $(FMU) $(FMU3)
 
+# Packages that are tested together, so that all are compiled with the same features.
+UNITS := -p wheelrail -p wheelrail-contact -p wheelrail-numerics
+PACKAGES := $(UNITS) -p wheelrail-slave -p wheelrail-bench
+
 test-programs: $(COACH)
-	$(RELEASE_CARGO) test --release --locked --quiet --no-run -p wheelrail -p wheelrail-slave -p wheelrail-bench --lib --bins --tests
+	$(RELEASE_CARGO) test --release --locked --quiet --no-run $(PACKAGES) --lib --bins --tests
 	$(RELEASE_CARGO) test --release --locked --quiet --no-run -p wheelrail-thesis --lib --bins --tests
 
 # Of earlier runs, from which a program may be gone.
@@ -135,7 +139,7 @@ test-tools:
 	$(PYTHON) -m unittest discover --quiet tools
 
 test-rust:
-	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail -p wheelrail-slave -p wheelrail-bench
+	$(WRAPPED) $(PYTHON) tools/run_tests.py $(PACKAGES)
 	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail-thesis
 	$(WRAPPED) $(PYTHON) tools/mutations.py --brief
 
@@ -155,12 +159,12 @@ LONG_UNITS := modes_of_long_low_rails_are_found_although_they_crowd energy_that_
 # Compiled by the profile `edit` of .cargo/config.toml; unit tests run at once, so that a failure shows early.
 quick:
 	@echo "quick: unit tests (lib) and the programs $(QUICK)"
-	$(CARGO) test --profile edit --locked --lib -- $(addprefix --skip ,$(LONG_UNITS))
+	$(CARGO) test --profile edit --locked $(UNITS) --lib -- $(addprefix --skip ,$(LONG_UNITS))
 	$(CARGO) test --profile edit --locked $(addprefix --test ,$(QUICK))
 
 loop:
 	@test -n "$(TEST)" || { echo 'make loop TEST=name: the name of a program in tests/, or lib for the unit tests'; exit 1; }
-	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),--lib,--test $(TEST)) -- $(ARGS)
+	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),$(UNITS) --lib,--test $(TEST)) -- $(ARGS)
 
 test-times: $(FMU) $(FMU3) $(COACH) $(BENCH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 	$(PYTHON) tools/test_times.py --python $(PY) --out $(TARGET)/test-times.md

@@ -21,7 +21,7 @@ PROGRAM = re.compile(
 # Pages that tell what was.
 PAST = ("CHANGELOG.md", "docs/history/")
 PYTHON = ("python/src", "bench", "examples", "packaging", "tools", "docs", "site")
-RUST = ("examples", "bench", "benches", "src", "coach", "thesis", "slave")
+RUST = ("examples", "bench", "benches", "src", "coach", "contact", "numerics", "thesis", "slave")
 SHELL = ("", "sh", "bash", "console", "text")
 
 

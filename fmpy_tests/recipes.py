@@ -61,6 +61,7 @@ CHECKOUT = (
         ("make endurance", "cargo run --release --example ex03_endurance -- --steps 1000000"), "Recover",
     ),  # fmt: skip
     Recipe("make random-parameters ARGS=2", ("make random-parameters",), "2 parameter sets"),
+    Recipe("cargo run --release --locked -p wheelrail-contact --example strip", says="Carter"),
     Recipe("make fmu", says="Nothing to be done"),
     Recipe("make fmu3", says="Nothing to be done"),
     Recipe("make python-wheel", says=".whl"),

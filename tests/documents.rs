@@ -36,8 +36,20 @@ fn paths(text: &str) -> impl Iterator<Item = &str> {
 
 /// True for a word that is a path of this repository.
 fn is_path(word: &str) -> bool {
-    const ROOMS: [&str; 9] =
-        ["src/", "tests/", "docs/", "examples/", "fmpy_tests/", "benches/", "resources/", "packaging/", "python/"];
+    const ROOMS: [&str; 12] = [
+        "src/",
+        "tests/",
+        "docs/",
+        "examples/",
+        "fmpy_tests/",
+        "benches/",
+        "resources/",
+        "packaging/",
+        "python/",
+        "contact/src/",
+        "contact/tests/",
+        "numerics/src/",
+    ];
     ROOMS.iter().any(|room| word.starts_with(room))
 }
 
@@ -106,8 +118,9 @@ fn listed(page: &str) -> Vec<&str> {
 #[test]
 fn the_page_of_dependencies_names_every_crate_that_is_asked_for_and_no_other() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
-    let manifests =
-        ["Cargo.toml", "bench/Cargo.toml", "slave/Cargo.toml", "coach/Cargo.toml", "thesis/Cargo.toml"].map(read);
+    let members =
+        ["bench", "coach", "contact", "numerics", "slave", "thesis"].map(|member| format!("{member}/Cargo.toml"));
+    let manifests: Vec<_> = members.iter().map(String::as_str).chain(["Cargo.toml"]).map(read).collect();
     let asked: BTreeSet<&str> = manifests.iter().flat_map(|manifest| dependencies(manifest)).collect();
     let page = read("docs/dependencies.md");
     let listed = listed(&page);

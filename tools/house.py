@@ -2,7 +2,7 @@
 """Counts of the source that say how well the house is built.
 
     tools/house.py                  the figures, each with its worst cases
-    tools/house.py contact rolling  the figures of these folders or files below src/
+    tools/house.py contact rolling  the figures of these folders or files below src/, contact/src/ and numerics/src/
     tools/house.py --all            every case, not only the worst
     tools/house.py --json           figures alone, for comparing two commits
 
@@ -21,7 +21,9 @@ MAX_FIELDS = 16
 MAX_COLUMNS = 120
 MAX_FUNCTION = 60
 LISTED = 12
-SOURCE = Path(__file__).resolve().parent.parent / "src"
+ROOT = Path(__file__).resolve().parent.parent
+# Folders of the source; files of those beside src/ are named with theirs.
+SOURCES = ("src", "contact/src", "numerics/src")
 
 WORD = r"[A-Za-z_][A-Za-z0-9_]*"
 TOKEN = re.compile(
@@ -282,12 +284,13 @@ def count(sources):
     ]
 
 
-def read(root, rooms):
-    """Texts of the source files below `root`, of some rooms only if there are any."""
-    files = {path.relative_to(root).as_posix(): path.read_text() for path in sorted(root.rglob("*.rs"))}
+def read(folders, rooms):
+    """Texts of the source files below folders of the checkout, an error if one of the rooms has none."""
+    files = {path.relative_to(ROOT).as_posix(): path.read_text() for folder in folders for path in sorted((ROOT / folder).rglob("*.rs"))}
+    files = {file.removeprefix("src/"): text for file, text in files.items()}
     unknown = [room for room in rooms if not any(within(file, [room]) for file in files)]
     if unknown:
-        sys.exit(f"no source file below {root} in {', '.join(unknown)}")
+        sys.exit(f"no source file in {', '.join(unknown)}")
     return files
 
 
@@ -298,19 +301,21 @@ def within(case, rooms):
     (True, True)
     >>> within("old/contact/a.rs:3", ["contact"]), within("contacts/a.rs:3", ["contact"]), within("a.rs", [])
     (False, False, True)
+    >>> within("numerics/src/linalg/a.rs:3", ["linalg"]), within("numerics/src/linalg/a.rs:3", ["numerics/src/linalg"])
+    (True, True)
     """
     names = [re.escape(room.removeprefix("src/").rstrip("/")) for room in rooms]
-    return not rooms or any(re.search(rf"(^|[ ,]){name}($|[/:.,])", case) for name in names)
+    return not rooms or any(re.search(rf"(^|[ ,])((contact|numerics)/src/)?{name}($|[/:.,])", case) for name in names)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("rooms", nargs="*", help="folders or files below src/; without them everything")
-    parser.add_argument("--root", type=Path, default=SOURCE, help="folder of the source")
+    parser.add_argument("--root", action="append", help="folder of the source; may be given more than once")
     parser.add_argument("--all", action="store_true", help="every case")
     parser.add_argument("--json", action="store_true", help="figures alone")
     options = parser.parse_args()
-    sources = read(options.root, options.rooms)
+    sources = read(options.root or SOURCES, options.rooms)
     figures = count(sources)
     chosen = [text for file, text in sources.items() if within(file, options.rooms)]
     lines = sum(len(text.splitlines()) for text in chosen)

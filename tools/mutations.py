@@ -31,15 +31,17 @@ ROOT = Path(__file__).resolve().parent.parent
 TABLE = Path(__file__).with_suffix(".toml")
 MARKED = re.compile(r"([^«»]*)«([^«»]+)»([^«»]*)", re.DOTALL)
 # Code on which vibration modes depend that tests keep in the folder `basis`.
-OF_BODIES = ("src/material.rs", "src/analytic.rs", "src/fem/", "src/linalg/", "src/mechanics/")
+OF_BODIES = ("src/material.rs", "numerics/src/analytic.rs", "src/fem/", "numerics/src/linalg/", "src/mechanics/")
+# Packages with unit tests, by the name that the table has for these, and their folders.
+UNITS = {"lib": ("wheelrail", ""), "contact-lib": ("wheelrail-contact", "contact/"), "numerics-lib": ("wheelrail-numerics", "numerics/")}
 # Where and how tests are compiled: all of them, and those of the brief run. To cargo, crates of the copy are those of the checkout: in
 # the folder of the product they must differ by their profile, lest it takes the one for the other.
 WHOLE = ("target/mutations/build", ["--profile", "edit"])
-UNOPTIMISED = [f"profile.release.package.{name}.opt-level=0" for name in ("wheelrail", "wheelrail-slave")]
+UNOPTIMISED = [f"profile.release.package.{name}.opt-level=0" for name in ("wheelrail", "wheelrail-slave", "wheelrail-contact", "wheelrail-numerics")]
 BRIEF = ("target", ["--release", *(word for setting in UNOPTIMISED for word in ("--config", setting))])
 # Number of the coefficient that is wrong, and its factor.
 SWITCH = "WHEELRAIL_WRONG_COEFFICIENT"
-# What the library of the copy has besides.
+# What the libraries of the copy with such a coefficient have besides.
 SWITCHED = """
 /// The factor of a coefficient: 1 unless the environment says that it is wrong.
 pub fn wrong_by(coefficient: usize) -> f64 {
@@ -118,8 +120,9 @@ def check(mutations, root):
             raise Unfit(f"{mutation.name} stands twice in the table")
         *modules, test = mutation.path.split("::")
         files = [f"tests/{mutation.program}.rs"]
-        if mutation.program == "lib":
-            files = ["/".join(["src", *modules[:-1]]) + end for end in (".rs", "/mod.rs", "/tests.rs")]
+        if mutation.program in UNITS:
+            _, folder = UNITS[mutation.program]
+            files = ["/".join([f"{folder}src", *modules[:-1]]) + end for end in (".rs", "/mod.rs", "/tests.rs")]
         sources = [(root / file).read_text() for file in files if (root / file).is_file()]
         if not any(re.search(rf"#\[test\]\s+fn {test}\(", source) for source in sources):
             raise Unfit(f"{mutation.name}: {' or '.join(files)} has no test {test}")
@@ -127,8 +130,9 @@ def check(mutations, root):
 
 def switched(mutations, root):
     """Texts of the files in which the environment tells the factors of coefficients; their numbers are those in the list."""
-    texts = {"src/lib.rs": (root / "src/lib.rs").read_text() + SWITCHED}
     sources = {mutation.file: (root / mutation.file).read_text() for mutation in mutations if not mutation.is_preset}
+    libraries = {f"{file.partition('src/')[0]}src/lib.rs" for file in sources}
+    texts = {library: (root / library).read_text() + SWITCHED for library in libraries}
     numbered = [(number, mutation) for number, mutation in enumerate(mutations) if not mutation.is_preset]
     places = [(*mutation.place(sources[mutation.file]), number, mutation) for number, mutation in numbered]
     for start, end, number, mutation in sorted(places, key=lambda place: place[:2], reverse=True):
@@ -196,7 +200,10 @@ class Copy:
 
     def programs(self, names):
         """Compiles test programs: their executables by name."""
-        chosen = [word for name in sorted(names) for word in (["--lib"] if name == "lib" else ["--test", name])]
+        chosen = [word for name in sorted(names) if name not in UNITS for word in ("--test", name)]
+        units = [name for name in UNITS if name in names]
+        # All packages that are chosen are compiled with the features of the product.
+        chosen += ["--lib", *(word for name in {"lib": None} | dict.fromkeys(units) for word in ("-p", UNITS[name][0]))] if units else []
         command = [os.environ.get("CARGO", "cargo"), "test", *self.options, "--locked", "--no-run"]
         environment = dict(os.environ, CARGO_TARGET_DIR=str(self.build))
         command += ["--message-format", "json", *chosen]
@@ -207,7 +214,8 @@ class Copy:
             errors = [each["rendered"] for each in said if each["level"] == "error"]
             raise Unfit("\n".join([f"{', '.join(sorted(names))}: not compiled", *errors]))
         tests = [each for each in artifacts if each.get("executable") and each["profile"]["test"]]
-        name = lambda each: each["target"]["name"] if each["target"]["kind"] == ["test"] else "lib"  # noqa: E731
+        of_target = {package.replace("-", "_"): name for name, (package, _) in UNITS.items()}
+        name = lambda each: each["target"]["name"] if each["target"]["kind"] == ["test"] else of_target.get(each["target"]["name"], "lib")  # noqa: E731
         return {name(each): each["executable"] for each in tests}
 
     def passes(self, executable, paths, switch=""):
@@ -267,7 +275,7 @@ def main(arguments, root=ROOT, table=TABLE):
             print(f"{len(mutations)} coefficients stand in the source, and so do their tests")
             return 0
         if chosen.brief:
-            mutations = [each for each in mutations if each.program == "lib"]
+            mutations = [each for each in mutations if each.program in UNITS]
         mutations = [each for each in mutations if not chosen.words or any(word in each.name for word in chosen.words)]
         if not mutations:
             raise Unfit(f"no coefficient has {' or '.join(chosen.words)} in its name")

@@ -21,9 +21,10 @@ class OneLibrary(unittest.TestCase):
         coach = compiled("--edges", "normal,build", "--package", "wheelrail", "--package", "wheelrail-coach")
         bench = compiled("--edges", "normal,build", "--package", "wheelrail-bench")
         thesis = compiled("--edges", "normal,build,dev", "--package", "wheelrail-thesis")
+        contact = compiled("--edges", "normal,build,dev", "--package", "wheelrail-contact")
         self.assertTrue(any(line.startswith("nalgebra ") for line in product & thesis))
         packages = {line.split(" ")[0] for line in tests}
-        for name, other in [("cargo build", product), ("the coach", coach), ("the bench", bench), ("the thesis", thesis)]:
+        for name, other in [("cargo build", product), ("the coach", coach), ("the bench", bench), ("the thesis", thesis), ("the contact", contact)]:
             again = sorted(line for line in other - tests if line.split(" ")[0] in packages)
             self.assertEqual(
                 again,

@@ -2,6 +2,7 @@
 //!
 //! | room | content |
 //! |---|---|
+//! | [`half_spaces`] | half-spaces that touch in a strip or an ellipse, from a few numbers: begin here |
 //! | [`contact`] | the contact problem itself, its solver, friction laws, limits of the steel; what bodies of one's own need |
 //! | [`patch`] | closed forms of the elliptical patch and of the lines that stand for it |
 //! | [`axes`] | axes of the rigid motion of the wheel, and what has a value for each |
@@ -14,8 +15,11 @@
 
 pub mod axes;
 pub mod contact;
+pub mod half_spaces;
 pub mod patch;
 
+pub use contact::{ContactError, Friction, FrictionLaw, Traction};
+pub use half_spaces::{Creepages, ElasticMaterial, RollingContact, RollingStep};
 pub use wheelrail_numerics as numerics;
 
 use wheelrail_numerics::{analytic, linalg, multistep, piecewise};

@@ -13,13 +13,13 @@ use std::path::Path;
 /// One file of source: a module.
 #[derive(Default)]
 pub struct Module {
-    /// Path below `src`, such as `contact/grid/mod.rs`.
+    /// Path below `src`, such as `rolling/step.rs`, or from the root of the checkout in one of the [`MEMBERS`].
     pub file: String,
     /// Code without comments, strings and unit tests.
     code: String,
     /// Path from the root of its crate.
     path: Vec<String>,
-    /// The crate it belongs to: `lib` or `main`.
+    /// The crate it belongs to: `lib`, `main`, or one of the [`MEMBERS`].
     root: &'static str,
     /// Modules declared in it.
     children: BTreeSet<String>,
@@ -40,7 +40,15 @@ enum Place {
     Elsewhere,
 }
 
-/// All modules of a crate and its program, unit tests left out.
+/// Crates of the workspace that hold rooms of the product, from the ground up, and where their source lies.
+pub const MEMBERS: [(&str, &str); 2] = [("wheelrail_numerics", "numerics/src/"), ("wheelrail_contact", "contact/src/")];
+
+/// The member of this name.
+fn member(name: &str) -> Option<&'static str> {
+    MEMBERS.iter().map(|(member, _)| *member).find(|member| *member == name)
+}
+
+/// All modules of a crate, its program and its [`MEMBERS`], unit tests left out.
 pub struct SourceMap {
     pub modules: Vec<Module>,
     at: BTreeMap<(&'static str, Vec<String>), usize>,
@@ -50,24 +58,34 @@ pub struct SourceMap {
 const DEPTH: usize = 12;
 
 impl SourceMap {
-    /// Reads the modules below a folder from `lib.rs` and `main.rs` on.
-    pub fn read(src: &Path) -> Self {
-        Self::from_files(|file| std::fs::read_to_string(src.join(file)).ok())
+    /// Reads the modules of a checkout from `lib.rs` and `main.rs` of every crate on.
+    pub fn read(checkout: &Path) -> Self {
+        let within = |folder: &str, file: &str| std::fs::read_to_string(checkout.join(folder).join(file)).ok();
+        Self::from_files(|file| match MEMBERS.iter().any(|(_, folder)| file.starts_with(folder)) {
+            true => within("", file),
+            false => within("src", file),
+        })
     }
 
     /// Reads modules and imports from any source of files.
     pub fn from_files(read: impl Fn(&str) -> Option<String>) -> Self {
         let mut map = Self { modules: Vec::new(), at: BTreeMap::new() };
-        for root in ["lib", "main"] {
-            map.add(root, Vec::new(), &read);
+        for (root, folder) in [("lib", ""), ("main", "")].into_iter().chain(MEMBERS) {
+            map.add((root, folder), Vec::new(), &read);
         }
         map
     }
 
-    fn add(&mut self, root: &'static str, path: Vec<String>, read: &impl Fn(&str) -> Option<String>) {
-        let base = path.join("/");
+    fn add(
+        &mut self,
+        (root, folder): (&'static str, &'static str),
+        path: Vec<String>,
+        read: &impl Fn(&str) -> Option<String>,
+    ) {
+        let base = format!("{folder}{}", path.join("/"));
         let candidates = match path.is_empty() {
-            true => vec![format!("{root}.rs")],
+            true if root == "main" => vec!["main.rs".to_owned()],
+            true => vec![format!("{folder}lib.rs")],
             false => vec![format!("{base}.rs"), format!("{base}/mod.rs")],
         };
         let Some((file, text)) = candidates.into_iter().find_map(|file| read(&file).map(|text| (file, text))) else {
@@ -86,7 +104,7 @@ impl SourceMap {
         self.at.insert((root, parent.clone()), self.modules.len());
         self.modules.push(module);
         for child in children {
-            self.add(root, [&parent[..], &[child]].concat(), read);
+            self.add((root, folder), [&parent[..], &[child]].concat(), read);
         }
     }
 
@@ -99,6 +117,7 @@ impl SourceMap {
         let start = match first.as_str() {
             "crate" => root(here.root),
             "wheelrail" => root("lib"),
+            name if member(name).is_some() => member(name).and_then(root),
             "self" => Some(from),
             "super" => parent(),
             _ => return self.resolve_name(from, path, depth),
@@ -148,6 +167,7 @@ impl SourceMap {
         let absolute = |path: &Vec<String>| match path.first().map(String::as_str) {
             Some("crate") => Some((module.root, path[1..].to_vec())),
             Some("wheelrail") => Some(("lib", path[1..].to_vec())),
+            Some(name) if member(name).is_some() => Some((member(name)?, path[1..].to_vec())),
             Some("super") => {
                 let above = module.path.len().saturating_sub(up(path));
                 Some((module.root, [&module.path[..above], &path[up(path)..]].concat()))
@@ -157,8 +177,21 @@ impl SourceMap {
             }
             _ => None,
         };
-        let top = |(root, path): (&'static str, Vec<String>)| self.at.get(&(root, path.get(..1)?.to_vec())).copied();
+        let top = |(root, path): (&'static str, Vec<String>)| {
+            let child = self.at.get(&(root, path.get(..1)?.to_vec())).copied();
+            child.or_else(|| self.room_of_another_crate(root, &path))
+        };
         paths.filter_map(absolute).filter_map(top).map(|room| self.modules[room].file.as_str()).collect()
+    }
+
+    /// A file of the room of another crate that the root of this one passes on.
+    fn room_of_another_crate(&self, root: &'static str, path: &[String]) -> Option<usize> {
+        let library = self.at.get(&(root, Vec::new())).copied()?;
+        self.modules[library].names.get(path.first()?)?;
+        match self.resolve(library, path, 0) {
+            Place::Module(file) | Place::Item(file) => Some(file).filter(|file| !self.modules[*file].path.is_empty()),
+            Place::Elsewhere => None,
+        }
     }
 
     fn imports_of(&self, from: usize) -> BTreeSet<usize> {
