@@ -162,7 +162,7 @@ fn linear_theory(model: &Arc<Model>, speed: f64) -> [f64; 2] {
         pose(&mut inputs.drive);
         Simulation::new(model.clone(), &inputs).unwrap().outputs().clone()
     };
-    let along = moving(2e-5, &|_| {});
+    let along = [-2e-5, 2e-5].map(|creepage| moving(creepage, &|_| {}));
     let aside = moving(0.0, &|drive| drive.lateral_rate = 2e-5 * speed);
     // The turn alone, without what it does to the wheel beside the middle.
     let spun = moving(0.0, &|drive| drive.yaw_rate = 0.0);
@@ -173,7 +173,8 @@ fn linear_theory(model: &Arc<Model>, speed: f64) -> [f64; 2] {
         inputs.drive.omega = spun.wheel_omega * (1.0 - B * spin);
         Simulation::new(model.clone(), &inputs).unwrap().outputs().clone()
     };
-    let f11 = -along.contact_force_x / along.contact_creepage;
+    let between = |of: fn(&Outputs) -> f64| of(&along[1]) - of(&along[0]);
+    let f11 = -between(|seen| seen.contact_force_x) / between(|seen| seen.contact_creepage);
     let [f22, g] = [-aside.contact_force_z, aside.contact_moment_y].map(|of| of / aside.contact_lateral_creepage);
     let [f23, f33] = [-spun.contact_force_z, spun.contact_moment_y].map(|of| of / spun.contact_spin);
     println!("f11 {f11:.4e}, f22 {f22:.4e}, f23 {f23:.4e}, f33 {f33:.4e}, moment by lateral creepage {g:.4e}");

@@ -100,6 +100,10 @@ questions! {
     Response: is_reduced { Reduced => true, Full => false }
     /// The patch is as wide as the bodies, and has one line.
     ContactShape: is_line { Line => true, Ellipse => false, Rows => false }
+    /// The host knows the wheelset.
+    WheelsetSide: is_known { Left => true, Right => true, None => false }
+    /// The wheel is the mirror image of the one that rows describe.
+    WheelsetSide: is_mirrored { Left => true, Right => false, None => false }
     /// The patch is that of `contact.rows`.
     ContactShape: has_rows { Rows => true, Line => false, Ellipse => false }
 }

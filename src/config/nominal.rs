@@ -1,6 +1,6 @@
 //! Size of the patch under the nominal load.
 
-use super::choices::{ContactShape, WheelsetSide};
+use super::choices::ContactShape;
 use super::dependent::CURVATURES;
 use super::patch_rows::{self, PatchRows, RowsError};
 use super::table::Config;
@@ -44,7 +44,7 @@ impl Config {
             ContactShape::Rows => {
                 let given = PatchRows::parse(text, self.contact.rows_load)?;
                 let grown = given.grown(libm::cbrt(self.model.nominal_load / self.contact.rows_load));
-                Ok(Some(if let WheelsetSide::Left = self.wheelset.side { grown.mirrored() } else { grown }))
+                Ok(Some(if self.wheelset.side.is_mirrored() { grown.mirrored() } else { grown }))
             }
         }
     }

@@ -1,6 +1,5 @@
 //! Parameters with which contact in two directions, `contact.lateral`, is refused.
 
-use super::choices::WheelsetSide;
 use super::dependent::{ConfigError, Dependent, beside};
 use super::table::Config;
 use std::f64::consts::PI;
@@ -16,8 +15,7 @@ pub fn check(config: &Config) -> Result<(), ConfigError> {
         ),
         (!solver.response.is_reduced(), "solver.response = full", "solver.response = reduced"),
     ];
-    let alone = !contact.lateral && !matches!(config.wheelset.side, WheelsetSide::None);
-    if alone {
+    if config.wheelset.side.is_known() && !contact.lateral {
         return Err(ConfigError::NotSideways);
     }
     let refused = others.into_iter().find(|(found, ..)| config.contact.lateral && *found);

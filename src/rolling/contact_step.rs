@@ -14,7 +14,7 @@ pub struct ContactStep<'a> {
     pub free: &'a [FreeResponse; 2],
     /// The rigid motions.
     pub rigid: PerAxis<RigidMotion>,
-    /// What the wheel does at the contact besides its rigid motions.
+    /// Drift of the wheel at the contact besides its rigid motions.
     pub drift: Drift,
     /// Time formula; all zero: stationary.
     pub time: TimeDerivative,

@@ -153,7 +153,7 @@ pub struct Motion {
     pub aside: f64,
     /// Its lateral velocity V_z [m/s].
     pub lateral: History,
-    /// What its surface does at the contact besides these motions, see [`Drift`](crate::contact::Drift): velocities along and
+    /// Drift of its surface at the contact besides these motions, see [`Drift`](crate::contact::Drift): velocities along and
     /// across [m/s], and angular velocity about the normal of the contact, clockwise from above positive [rad/s].
     pub drift: [f64; 3],
     /// Part of the lateral force that lifts the wheel, see [`Drift::rise`](crate::contact::Drift::rise) \[1].

@@ -300,10 +300,7 @@ fn solve_and_commit(
     ];
     model.bodies.free_responses(&operators, state, td, streams, &mut workspace.free);
     let free = &workspace.free;
-    let place = [
-        moved_by(state.motion.distance, &state.motion.velocity, speeds[0], *dt),
-        moved_by(state.motion.angle, &state.motion.omega, speeds[1], *dt),
-    ];
+    let place = place(&state.motion, *speeds, *dt);
     let side = model.wheel.sideways.step(&state.motion.lateral, &state.side, drives.lateral, td);
     let lateral = side.motion(state.resultant().lateral);
     let contact = ContactStep {
@@ -345,6 +342,11 @@ fn solve_and_commit(
     wear::wear(model, state, *dt, next);
     next.clock.restarted = plan.restarted;
     Ok(())
+}
+
+/// Distance and angle after a step of `dt` seconds that ends with the speeds V and Ω.
+fn place(motion: &Motion, [travel, rotation]: [f64; 2], dt: f64) -> [f64; 2] {
+    [moved_by(motion.distance, &motion.velocity, travel, dt), moved_by(motion.angle, &motion.omega, rotation, dt)]
 }
 
 /// Distance or angle after a step that ends with the speed `to`: the trapezoidal rule.

@@ -115,7 +115,7 @@ impl Wheelset {
         self.angle - pose.roll
     }
 
-    /// What the surface of the wheel does at the centre of load besides its rigid motions under inputs.
+    /// Drift of the surface of the wheel at the centre of load besides its rigid motions under inputs.
     pub fn drift(&self, drive: &Drive) -> Drift {
         if self.side.is_none() {
             let spin = BySpeed { per_travel: drive.spin, per_rotation: -libm::sin(drive.contact_angle), constant: 0.0 };
@@ -151,7 +151,7 @@ impl Wheelset {
         if self.side.is_none() { 1.0 } else { libm::cos(self.slope(&Pose::of(drive))) }
     }
 
-    /// What contact forces do to the wheelset: `force` on the wheel along, normal to and across in the plane of contact, with
+    /// Wrench of contact forces on the wheelset: `force` on the wheel along, normal to and across in the plane of contact, with
     /// their forward moment about the hub, and the `spin` moment about the normal.
     pub fn wrench(&self, pose: &Pose, force: PerAxis<f64>, spin: f64) -> Wrench {
         if self.side.is_none() {

@@ -245,7 +245,7 @@ impl BySpeed {
     }
 }
 
-/// What the surface of the wheel does at the contact besides what its rigid motions say.
+/// Velocities of the surface of the wheel at the contact besides those of its rigid motions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drift {
     /// Velocity at the centre of load along, besides `V − rΩ` [m/s].
@@ -279,7 +279,7 @@ pub struct ContactProblem<'a> {
     pub lines: Vec<LineProblem<'a>>,
     /// Rigid motions of the wheel.
     pub rigid: PerAxis<RigidMotion>,
-    /// What the wheel does at the contact besides its rigid motions; only lines with lateral forces feel it.
+    /// Drift of the wheel besides its rigid motions; only lines with lateral forces feel it.
     pub drift: Drift,
     /// Line load that scales tolerances [N/m].
     pub nominal_load: f64,

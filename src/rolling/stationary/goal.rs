@@ -117,7 +117,7 @@ impl Goal {
         }
     }
 
-    /// What the wheel does at the contact besides its rigid motions; nothing at rest.
+    /// Drift of the wheel at the contact besides its rigid motions; nothing at rest.
     pub fn drift(&self, model: &RollingModel) -> Drift {
         if self.moving { model.wheel.wheelset.drift(&self.drive) } else { Drift::default() }
     }

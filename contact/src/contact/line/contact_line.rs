@@ -157,7 +157,7 @@ pub struct ContactLine<'a> {
     /// Rim angle that belongs to the surface displacements at hand \[rad]: in the first iteration those of the start,
     /// while that of [`Self::frame`] is predicted.
     pub surface_angle: f64,
-    /// What the wheel does besides its rigid motions, if the line has a lateral direction.
+    /// Drift of the wheel besides its rigid motions, if the line has a lateral direction.
     pub drift: Drift,
     resumed: Option<Resumed>,
     /// Size of the nodes over that in the step before \[1].
