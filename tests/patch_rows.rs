@@ -213,7 +213,7 @@ fn a_file_of_rows_is_read_beside_the_presets_and_a_missing_one_is_named() {
     );
     let mut senseless = rows("position,half_length,load_share; 0,9e-3,1; 1e-5,9e-3,1".to_owned(), 7, false);
     let error = senseless.validate().unwrap_err().to_string();
-    assert!(error.contains("half axes' ratio a/b of contact.rows") && error.contains("0.05 to 13"), "{error}");
+    assert!(error.contains("half axes' ratio a/b of contact.rows") && error.contains("0.05 to 25"), "{error}");
     senseless.contact.rows = String::new();
     let error = senseless.validate().unwrap_err().to_string();
     assert!(error.contains("contact.rows has 0 rows"), "{error}");
