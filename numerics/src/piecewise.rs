@@ -236,6 +236,29 @@ pub fn straight(points: &[[f64; 2]]) -> [f64; 2] {
     [mean - half, mean + half]
 }
 
+/// Numbers and weights of the values at ascending nodes in that of the piecewise cubic function that has at every node the slope of
+/// the parabola through it and its neighbours, and at the ends that of the chord: without kinks. One node has its value everywhere.
+pub fn cubic(x: &[f64], at: f64) -> Vec<(usize, f64)> {
+    let Some(last) = x.len().checked_sub(2) else { return (0..x.len()).map(|node| (node, 1.0)).collect() };
+    let k = x.partition_point(|node| *node <= at).saturating_sub(1).min(last);
+    let length = x[k + 1] - x[k];
+    let t = ((at - x[k]) / length).clamp(0.0, 1.0);
+    let rise = t * t * (3.0 - 2.0 * t);
+    let mut weights = vec![(k, 1.0 - rise), (k + 1, rise)];
+    for (node, of_slope) in [(k, length * t * (1.0 - t) * (1.0 - t)), (k + 1, -length * t * t * (1.0 - t))] {
+        let [before, after] = [node.saturating_sub(1), (node + 1).min(x.len() - 1)];
+        if before == node || after == node {
+            let by = of_slope / (x[after] - x[before]);
+            weights.extend([(before, -by), (after, by)]);
+            continue;
+        }
+        let [near, far] = [x[node] - x[before], x[after] - x[node]];
+        let by = of_slope / (near + far);
+        weights.extend([(before, -by * far / near), (node, by * (far / near - near / far)), (after, by * near / far)]);
+    }
+    weights
+}
+
 /// Replaces `out` by the values at the ascending positions `at`, see [`interpolate`].
 pub fn resample(x: &[f64], values: &[f64], at: &[f64], out: &mut Vec<f64>) {
     let mut value = ascending(x, values);

@@ -1,7 +1,7 @@
 //! Ranges of parameters that depend on other parameters.
 
 use super::choices::ContactShape;
-use super::patch_rows::{PatchRows, RowsError};
+use super::patch_rows::{PatchTable, RowsError};
 use super::table::{Config, Material};
 use super::value::{display_number, display_range};
 use crate::analytic;
@@ -124,11 +124,13 @@ fn longest_half_width(config: &Config) -> f64 {
 
 /// Rows of a patch for which wheel and rail have room; rows that have not been read are not judged.
 fn longest_row(config: &Config) -> Dependent {
-    let rows = config.patch_rows().ok().flatten();
+    let table = config.patch_table().ok().flatten();
+    let longest =
+        |table: &PatchTable| table.patches.iter().fold(0.0, |longest: f64, rows| longest.max(rows.half_length()));
     Dependent {
         name: "largest half_length of contact.rows under model.nominal_load",
-        range: if rows.is_some() { [SMALLEST_HALF_WIDTH, longest_half_width(config)] } else { ANY },
-        value: rows.map_or(0.0, |rows| rows.half_length()),
+        range: if table.is_some() { [SMALLEST_HALF_WIDTH, longest_half_width(config)] } else { ANY },
+        value: table.as_ref().map_or(0.0, longest),
         unit: "m",
         others: config.told(
             "{model.nominal_load}, {contact.rows_load}, {wheel.radius} and {rail.length} (the contact zone fits wheel and rail)",
@@ -139,11 +141,13 @@ fn longest_row(config: &Config) -> Dependent {
 /// Rows of patches that are neither a line across nor one along the direction of rolling, and no more of them than
 /// lines.
 fn rows(config: &Config) -> Vec<Dependent> {
-    let Ok(Some(PatchRows { shapes, .. })) = config.patch_rows() else { return Vec::new() };
+    let Ok(Some(PatchTable { patches, .. })) = config.patch_table() else { return Vec::new() };
+    let shapes: Vec<_> = patches.iter().flat_map(|rows| &rows.shapes).collect();
+    let most = patches.iter().map(|rows| rows.shapes.len()).max().unwrap_or(0);
     let lines = config.contact.lines;
     let count = Dependent {
         name: "number of patches in contact.rows",
-        value: shapes.len() as f64,
+        value: most as f64,
         unit: "1",
         range: [1.0, lines as f64],
         others: format!(
@@ -151,7 +155,16 @@ fn rows(config: &Config) -> Vec<Dependent> {
              say with the column width that rows touch)"
         ),
     };
-    shapes.iter().map(aspect).chain([count]).collect()
+    // Where a patch moves, its lines are its rows.
+    let rows = patches.first().filter(|_| patches.len() > 1).map_or(1, |rows| rows.rows.len());
+    let moving = Dependent {
+        name: "number of rows of every shift in contact.rows",
+        value: rows as f64,
+        unit: "1",
+        range: [1.0, lines as f64],
+        others: format!("contact.lines = {lines} (raise contact.lines to it, or make a table of fewer rows)"),
+    };
+    shapes.into_iter().map(aspect).chain([count, moving]).collect()
 }
 
 /// The ratio of the half axes of a patch of rows.

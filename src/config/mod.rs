@@ -21,7 +21,7 @@ pub use choices::{
 };
 pub use dependent::ConfigError;
 pub use nominal::NominalPatch;
-pub use patch_rows::{OnWheel, PatchRows, RowsError};
+pub use patch_rows::{OnWheel, PatchRows, PatchTable, RowsError};
 pub use table::{
     BrakeParameters, Config, ContactParameters, Damping, Files, Friction, Initial, Material, MeshParameters,
     ModelParameters, Physics, Rail, SolverParameters, Thermal, Tuning, Vehicle, Wheel, WheelsetParameters,

@@ -2,7 +2,7 @@
 
 use super::choices::ContactShape;
 use super::dependent::CURVATURES;
-use super::patch_rows::{self, PatchRows, RowsError};
+use super::patch_rows::{self, PatchRows, PatchTable, RowsError};
 use super::table::Config;
 use crate::analytic::{contact_modulus, hertz_half_width};
 use crate::patch::{Ellipse, Hertz};
@@ -37,12 +37,23 @@ impl Config {
     /// # Errors
     /// Rows without meaning, and a file that has not been read.
     pub fn patch_rows(&self) -> Result<Option<PatchRows>, RowsError> {
+        Ok(self.patch_table()?.map(|table| table.middle().clone()))
+    }
+
+    /// Rows of the patch over the shift of the wheelset under the nominal load; `None` where its shape is not given by rows.
+    ///
+    /// # Errors
+    /// Rows without meaning, and a file that has not been read.
+    pub fn patch_table(&self) -> Result<Option<PatchTable>, RowsError> {
         let text = &self.contact.rows;
         match self.contact.shape {
             ContactShape::Line | ContactShape::Ellipse => Ok(None),
             ContactShape::Rows if patch_rows::is_file(text) => Err(RowsError::Unread(text.clone())),
             ContactShape::Rows => {
-                let given = PatchRows::parse(text, self.contact.rows_load)?;
+                let given = PatchTable::parse(text, self.contact.rows_load)?;
+                if given.shifts.len() > 1 && matches!(self.wheelset.side, WheelsetSide::None) {
+                    return Err(RowsError::NoWheelset);
+                }
                 let grown = given.grown(libm::cbrt(self.model.nominal_load / self.contact.rows_load));
                 Ok(Some(if self.wheelset.side.is_mirrored() { grown.mirrored() } else { grown }))
             }
@@ -53,8 +64,11 @@ impl Config {
     /// prepared.
     pub(super) fn check_rows(&self) -> Result<(), RowsError> {
         let text = &self.contact.rows;
-        let read =
-            if text.is_empty() { self.patch_rows() } else { PatchRows::parse(text, self.contact.rows_load).map(Some) };
+        let read = if text.is_empty() {
+            self.patch_table()
+        } else {
+            PatchTable::parse(text, self.contact.rows_load).map(Some)
+        };
         if patch_rows::is_file(text) { Ok(()) } else { read.map(|_| ()) }
     }
 

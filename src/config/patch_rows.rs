@@ -42,12 +42,31 @@ pub enum RowsError {
     /// A file that nobody has read yet.
     #[error("contact.rows: file {0} has not been read; give its content")]
     Unread(String),
-    /// A table over several shifts.
+    /// Blocks of a table over the shift that do not belong together.
     #[error(
-        "contact.rows has rows for shift = {0} m and {1} m, but the patch holds for a whole run: leave the rows of one shift, as \
-         `wheelrail patch --shift` makes them"
+        "contact.rows: the block of shift = {shift} m has {rows} rows, the first one {first}: every shift has as many rows, as \
+         `wheelrail patch` makes them"
     )]
-    Shifts(String, String),
+    Blocks {
+        /// Shift of the block, as text \[m].
+        shift: String,
+        /// Number of its rows.
+        rows: usize,
+        /// Number of rows of the first block.
+        first: usize,
+    },
+    /// A table over the shift on surfaces with profiles.
+    #[error(
+        "contact.rows has rows for several shifts, but the surfaces are not smooth: leave the rows of one shift, or wheel.profile and \
+         rail.profile empty"
+    )]
+    Uneven,
+    /// A table over the shift without a wheelset that shifts.
+    #[error(
+        "contact.rows has rows for several shifts, but the wheel belongs to no wheelset: set wheelset.side = left or right, or leave \
+         the rows of one shift, as `wheelrail patch --shift` makes them"
+    )]
+    NoWheelset,
     /// A file that cannot be read.
     #[error("contact.rows: {0}")]
     Unreadable(#[from] Unread),
@@ -101,41 +120,6 @@ pub fn is_file(text: &str) -> bool {
 }
 
 impl PatchRows {
-    /// Reads rows that together carry `load` \[N]: a table with the columns `position` and `half_length` \[m] and
-    /// `load_share`, any measure of the load of a row; only its ratios count. With a column `width` \[m] rows are as wide as
-    /// it says; without one, those at about the same distance touch, each reaches halfway to its neighbours, and where the
-    /// distance is larger a gap is left.
-    ///
-    /// # Errors
-    /// Tables without meaning: the error names line, column, value, allowed range and what to do.
-    pub fn parse(text: &str, load: f64) -> Result<Self, RowsError> {
-        if text.trim().is_empty() {
-            return Err(RowsError::Count(0));
-        }
-        let text = text.replace(';', "\n");
-        let table = Table::read(&text)?;
-        let columns = table.columns(COLUMNS, &[WIDTH])?;
-        let others = Others {
-            width: table.column(WIDTH),
-            on_wheel: ON_WHEEL.map(|(name, _)| table.column(name)),
-            shift: table.column(SHIFT),
-        };
-        let mut given: Vec<GivenRow> = Vec::new();
-        for row in table.rows() {
-            let row = GivenRow::read(&row?, columns, &others)?;
-            if let Some(first) = given.first().filter(|first: &&GivenRow| first.shift != row.shift) {
-                let [first, other] = [first.shift, row.shift].map(|shift| format!("{:?}", shift.unwrap_or(0.0)));
-                return Err(RowsError::Shifts(first, other));
-            }
-            row.check(given.last().map(|row| row.position)).map_err(|problem| wrong(row.line, problem))?;
-            given.push(row);
-        }
-        if !(2..=MOST_ROWS).contains(&given.len()) {
-            return Err(RowsError::Count(given.len()));
-        }
-        Self::new(&given, load)
-    }
-
     fn new(given: &[GivenRow], load: f64) -> Result<Self, RowsError> {
         let widths: Option<Vec<f64>> = given.iter().map(|row| row.width).collect();
         let sides = widths.map_or_else(|| sides_by_distance(given), |widths| sides_by_width(given, &widths))?;
@@ -196,6 +180,90 @@ impl PatchRows {
     /// Largest half-length of a row \[m].
     pub fn half_length(&self) -> f64 {
         self.rows.iter().fold(0.0, |longest: f64, row| longest.max(row.half_length))
+    }
+}
+
+/// Rows of a patch over the shift of the wheelset.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PatchTable {
+    /// Shifts, ascending \[m]; one without meaning for a patch that stays.
+    pub shifts: Vec<f64>,
+    /// The patches under these, with as many rows each.
+    pub patches: Vec<PatchRows>,
+}
+
+impl PatchTable {
+    /// Reads rows that together carry `load` \[N]: a table with the columns `position` and `half_length` \[m] and
+    /// `load_share`, any measure of the load of a row; only its ratios count. With a column `width` \[m] rows are as wide as
+    /// it says; without one, those at about the same distance touch, each reaches halfway to its neighbours, and where the
+    /// distance is larger a gap is left. `angle` \[rad], `radius` and `lateral` \[m] say where rows lie on the wheel. With a column
+    /// `shift` \[m] the rows of every shift are one patch.
+    ///
+    /// # Errors
+    /// Tables without meaning: the error names line, column, value, allowed range and what to do.
+    pub fn parse(text: &str, load: f64) -> Result<Self, RowsError> {
+        if text.trim().is_empty() {
+            return Err(RowsError::Count(0));
+        }
+        let text = text.replace(';', "\n");
+        let table = Table::read(&text)?;
+        let columns = table.columns(COLUMNS, &[WIDTH])?;
+        let others = Others {
+            width: table.column(WIDTH),
+            on_wheel: ON_WHEEL.map(|(name, _)| table.column(name)),
+            shift: table.column(SHIFT),
+        };
+        let mut blocks: Vec<Vec<GivenRow>> = Vec::new();
+        for row in table.rows() {
+            let row = GivenRow::read(&row?, columns, &others)?;
+            let present = blocks.last().and_then(|block| block.last());
+            let [before, shift] = [present.and_then(|row| row.shift), row.shift];
+            if present.is_none() || before != shift {
+                if let (Some(before), Some(shift)) = (before, shift)
+                    && before > shift
+                {
+                    let problem =
+                        format!("shift = {shift} m lies before {before} m above; sort the blocks by their shift");
+                    return Err(wrong(row.line, problem));
+                }
+                blocks.push(Vec::new());
+            }
+            let Some(block) = blocks.last_mut() else { continue };
+            row.check(block.last().map(|row| row.position)).map_err(|problem| wrong(row.line, problem))?;
+            block.push(row);
+        }
+        let count = blocks.first().map_or(0, Vec::len);
+        if !(2..=MOST_ROWS).contains(&count) {
+            return Err(RowsError::Count(count));
+        }
+        if let Some(other) = blocks.iter().find(|block| block.len() != count) {
+            let shift = format!("{:?}", other[0].shift.unwrap_or(0.0));
+            return Err(RowsError::Blocks { shift, rows: other.len(), first: count });
+        }
+        Ok(Self {
+            shifts: blocks.iter().map(|block| block[0].shift.unwrap_or(0.0)).collect(),
+            patches: blocks.iter().map(|block| PatchRows::new(block, load)).collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// The patch of the wheelset in the middle of the track, or the nearest one.
+    pub fn middle(&self) -> &PatchRows {
+        let place = |k: &usize| self.shifts[*k].abs();
+        let nearest = (0..self.shifts.len()).min_by(|a, b| place(a).total_cmp(&place(b)));
+        &self.patches[nearest.unwrap_or(0)]
+    }
+
+    /// Patches with `scale` times their lengths, see [`PatchRows::grown`].
+    pub fn grown(&self, scale: f64) -> Self {
+        Self { shifts: self.shifts.clone(), patches: self.patches.iter().map(|patch| patch.grown(scale)).collect() }
+    }
+
+    /// Those of a left wheel, of which these are the mirror image.
+    pub fn mirrored(&self) -> Self {
+        Self {
+            shifts: self.shifts.iter().rev().map(|shift| -shift).collect(),
+            patches: self.patches.iter().rev().map(PatchRows::mirrored).collect(),
+        }
     }
 }
 
@@ -329,7 +397,7 @@ mod tests {
 
     #[test]
     fn rows_on_lines_or_between_semicolons_share_the_load_by_their_ratios() {
-        let found = PatchRows::parse("position, half_length, load_share; -1e-3, 4e-3, 3; 1e-3, 5e-3, 1", 8e4).unwrap();
+        let found = parsed("position, half_length, load_share; -1e-3, 4e-3, 3; 1e-3, 5e-3, 1", 8e4);
         let expected = [
             PatchRow { position: -1e-3, width: 2e-3, half_length: 4e-3, line_load: 3e7, gap: 0.0 },
             PatchRow { position: 1e-3, width: 2e-3, half_length: 5e-3, line_load: 1e7, gap: 0.0 },
@@ -337,7 +405,7 @@ mod tests {
         assert_eq!(found.rows, expected);
         assert_eq!((found.width(), found.half_length()), (4e-3, 5e-3));
         let lines = "\u{feff}load_share,unused,position,half_length\n3,,-1e-3,4e-3\n1,,1e-3,5e-3\n";
-        assert_eq!(PatchRows::parse(lines, 8e4), Ok(found));
+        assert_eq!(PatchTable::parse(lines, 8e4), Ok(found));
     }
 
     #[test]
@@ -355,7 +423,7 @@ mod tests {
             (format!("{head}0,0,1"), &["line 2", "half_length = 0 m", "left out"]),
             (format!("{head}0,5e-3,-1"), &["line 2", "load_share = -1", "positive"]),
         ] {
-            let message = PatchRows::parse(&text, 1e5).unwrap_err().to_string();
+            let message = PatchTable::parse(&text, 1e5).unwrap_err().to_string();
             assert!(words.iter().all(|word| message.contains(word)), "{message}");
         }
         let with_widths = "position,half_length,load_share,width\n";
@@ -368,11 +436,11 @@ mod tests {
             (format!("{head}0,0,5e-3,1\n1,5,5e-3,1"), &["line 2", "4 cells", "3 columns", "decimal point"]),
             (format!("position,{head}0,0,5e-3,1\n1,1,5e-3,1"), &["line 1", "two columns position"]),
         ] {
-            let message = PatchRows::parse(&text, 1e5).unwrap_err().to_string();
+            let message = PatchTable::parse(&text, 1e5).unwrap_err().to_string();
             assert!(words.iter().all(|word| message.contains(word)), "{message}");
         }
         let many: String = (0..1001).map(|i| format!("{:e},1e-3,1\n", 1e-5 * f64::from(i))).collect();
-        assert_eq!(PatchRows::parse(&format!("{head}{many}"), 1e5), Err(RowsError::Count(1001)));
+        assert_eq!(PatchTable::parse(&format!("{head}{many}"), 1e5), Err(RowsError::Count(1001)));
     }
 
     /// Table of rows at positions \[mm] with loads.
@@ -389,32 +457,32 @@ mod tests {
 
     #[test]
     fn a_missing_row_is_a_gap_and_rows_about_it_keep_load_and_width() {
-        let found = PatchRows::parse(&table(&[(-2.0, 1.0), (-1.0, 2.0), (1.0, 3.0), (2.0, 4.0)]), 1e5).unwrap();
+        let found = PatchTable::parse(&table(&[(-2.0, 1.0), (-1.0, 2.0), (1.0, 3.0), (2.0, 4.0)]), 1e5).unwrap();
         assert_eq!(sides(&found), [[1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [1.0, 0.0]]);
         assert_eq!(found.shapes.len(), 2);
         let loads: Vec<f64> = found.rows.iter().map(|row| (row.width * row.line_load).round()).collect();
         assert_eq!(loads, [1e4, 2e4, 3e4, 4e4]);
         // A row alone is as wide as the others, and distances that nearly agree are not gaps.
-        let alone = PatchRows::parse(&table(&[(-2.0, 1.0), (-1.0, 1.0), (0.0, 1.0), (30.0, 1.0)]), 1e5).unwrap();
+        let alone = PatchTable::parse(&table(&[(-2.0, 1.0), (-1.0, 1.0), (0.0, 1.0), (30.0, 1.0)]), 1e5).unwrap();
         assert_eq!(sides(&alone)[3], [1.0, 29.0]);
-        let uneven = PatchRows::parse(&table(&[(0.0, 1.0), (0.4, 1.0), (1.0, 1.0)]), 1e5).unwrap();
+        let uneven = PatchTable::parse(&table(&[(0.0, 1.0), (0.4, 1.0), (1.0, 1.0)]), 1e5).unwrap();
         assert_eq!(sides(&uneven), [[0.4, 0.0], [0.5, 0.0], [0.6, 0.0]]);
     }
 
     #[test]
     fn rows_with_widths_are_as_wide_as_they_say_and_loads_are_those_of_rows() {
         let text = "position,width,half_length,load_share; 0,1e-3,5e-3,1; 2e-3,3e-3,5e-3,1; 4e-3,1e-3,5e-3,2";
-        let found = PatchRows::parse(text, 8e4).unwrap();
+        let found = PatchTable::parse(text, 8e4).unwrap();
         assert_eq!(sides(&found), [[1.0, 0.0], [3.0, 0.0], [1.0, 0.0]]);
         let line_loads: Vec<f64> = found.rows.iter().map(|row| (1e-3 * row.line_load).round()).collect();
         assert_eq!(line_loads, [20e3, 6667.0, 40e3]);
-        let groove = PatchRows::parse(&text.replace("4e-3", "4.3e-3"), 8e4).unwrap();
+        let groove = PatchTable::parse(&text.replace("4e-3", "4.3e-3"), 8e4).unwrap();
         assert_eq!((sides(&groove)[2], groove.shapes.len()), ([1.0, 0.3], 2));
     }
 
     #[test]
     fn patches_grow_about_their_common_centre_of_load() {
-        let given = PatchRows::parse(&table(&[(-2.0, 1.0), (-1.0, 2.0), (1.0, 3.0), (2.0, 4.0)]), 1e5).unwrap();
+        let given = PatchTable::parse(&table(&[(-2.0, 1.0), (-1.0, 2.0), (1.0, 3.0), (2.0, 4.0)]), 1e5).unwrap();
         assert_eq!(given.grown(1.0), given);
         let grown = given.grown(0.5_f64.cbrt());
         assert!((rows::load(&grown.rows) / 5e4 - 1.0).abs() < 1e-14);

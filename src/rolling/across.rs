@@ -27,7 +27,7 @@ impl Seen<'_> {
 /// All lines of a patch: those that stand for a symmetric pair twice.
 fn seen<'a>(model: &RollingModel, state: &'a State) -> Vec<Seen<'a>> {
     let (width, lateral) = (model.wheel.width, 0.5 * model.wheel.width * state.covered());
-    let centre = model.contact.patch.centre;
+    let centre = model.contact.patch.centre(state.motion.pose.lateral);
     let of = |(line, part, side): (&'a Line, f64, f64)| Seen {
         line,
         position: centre + side * lateral * line.layout.ordinate,

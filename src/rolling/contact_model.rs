@@ -9,7 +9,6 @@ use super::patch_lines::PatchLines;
 use super::standing;
 use super::state::State;
 use super::thermal_state::ThermalDeformation;
-use super::wheelset::Wheelset;
 use crate::axes::{Axis, PerAxis};
 use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
@@ -36,8 +35,6 @@ pub struct ContactModel {
     nominal_half_width: f64,
     /// Width of the line contact [m].
     width: f64,
-    /// Radius of rolling less that of the circle \[m].
-    larger: f64,
     /// Flexibility of the layer between the surfaces [m/Pa].
     layer: f64,
     /// Pressure at which cold steel yields [Pa]; infinite: never.
@@ -54,11 +51,8 @@ impl ContactModel {
     /// # Errors
     /// Rows of a patch without meaning.
     pub fn new(config: &Config, surfaces: Surfaces, solver: ActiveSetSolver, reach: f64) -> Result<Self, RowsError> {
-        let patch = PatchLines::new(config, surfaces.is_smooth(), reach)?;
-        let radius = Wheelset::new(config, patch.centre, patch.on_wheel).radius;
         Ok(Self {
-            larger: radius - config.wheel.radius,
-            patch,
+            patch: PatchLines::new(config, surfaces.is_smooth(), reach)?,
             surfaces,
             solver,
             nominal_load: config.model.nominal_load,
@@ -127,20 +121,22 @@ impl ContactModel {
         scratch: &mut ActiveSetScratch,
     ) -> Result<(), ContactError> {
         found.resize_with(start.len(), Line::default);
+        let patch = &*self.patch.at(step.shift);
         let carried = |lines: &[Line]| self.width * lines::sum(lines, |line| line.contact.traction.resultant.height);
         let before = carried(start);
-        let expected = load_to_come::expected(&self.patch, step, start, [before, self.nominal_load], self.width);
-        let mut load = self.patch.load_of(expected);
+        let expected = load_to_come::expected(patch, step, start, [before, self.nominal_load], self.width);
+        let mut load = patch.load_of(expected);
         // More layouts count as iterations: they tell one branch from another.
         let (mut more, first) = (0, load);
-        let grows = if before > 0.0 && expected > 0.0 { self.patch.stretch(expected / before) } else { 1.0 };
+        let grows = if before > 0.0 && expected > 0.0 { patch.stretch(expected / before) } else { 1.0 };
         let mut begin = Begin::Before(grows);
         for _ in 0..MOST_LAYOUTS {
-            self.patch.lay_out(load, found);
-            self.solve_laid_out((step, begin), start, found, scratch).map_err(|error| self.of_patch(error, load))?;
-            let next = self.patch.load_of(carried(found)).clamp(load / LARGEST_FACTOR, load * LARGEST_FACTOR);
+            patch.lay_out(load, found);
+            self.solve_laid_out((step, patch, begin), start, found, scratch)
+                .map_err(|error| self.of_patch(error, load))?;
+            let next = patch.load_of(carried(found)).clamp(load / LARGEST_FACTOR, load * LARGEST_FACTOR);
             let next = followed(first, next);
-            if !self.patch.is_sized() || missed(load, next) <= if more == 0 { 0.0 } else { SAME_LOAD } {
+            if !patch.is_sized() || missed(load, next) <= if more == 0 { 0.0 } else { SAME_LOAD } {
                 break;
             }
             (load, more, begin) = (next, more + 1, Begin::Found);
@@ -163,7 +159,7 @@ impl ContactModel {
     /// Solves for the contact forces of lines that are laid out.
     fn solve_laid_out(
         &self,
-        (step, begin): (&ContactStep, Begin),
+        (step, patch, begin): (&ContactStep, &PatchLines, Begin),
         start: &[Line],
         found: &mut [Line],
         scratch: &mut ActiveSetScratch,
@@ -173,7 +169,7 @@ impl ContactModel {
         let problem = ContactProblem {
             lines: lines
                 .map(|(k, (((line, friction), place), own))| {
-                    self.line(step, (line, place), *friction, (k, &own.layout))
+                    self.line((step, patch), (line, place), *friction, (k, &own.layout))
                 })
                 .collect(),
             rigid: step.rigid,
@@ -197,7 +193,7 @@ impl ContactModel {
     /// Problem of a line with its number and layout, which is in the state `start`.
     fn line<'a>(
         &'a self,
-        step: &'a ContactStep,
+        (step, patch): (&'a ContactStep, &'a PatchLines),
         (start, place): (&'a Line, &'a Placement<'a>),
         friction: Friction,
         (number, layout): (usize, &LineLayout),
@@ -210,7 +206,7 @@ impl ContactModel {
             size: layout.size,
             kernel: layout.kernel,
             layer: self.layer,
-            patch: self.patch.flexibility().map(|patch| layout.in_patch(patch, number)),
+            patch: patch.flexibility().map(|patch| layout.in_patch(patch, number)),
             bodies: surface_response(step),
             membrane: [&membrane_force[0], &membrane_force[1]],
             time: step.time,
@@ -218,8 +214,8 @@ impl ContactModel {
             surfaces: Undeformed {
                 radius: self.surfaces.radius,
                 // On another radius than that of its circle the wheel stands as much higher over the rail.
-                growth: *radius_growth + self.larger,
-                elevation: step.elevation - layout.gap - self.larger,
+                growth: *radius_growth + (step.radius - self.surfaces.radius),
+                elevation: step.elevation - layout.gap - (step.radius - self.surfaces.radius),
                 swelling: [&swelling[0], &swelling[1]],
                 uneven: place.unevenness(),
             },

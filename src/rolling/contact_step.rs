@@ -16,6 +16,10 @@ pub struct ContactStep<'a> {
     pub rigid: PerAxis<RigidMotion>,
     /// Drift of the wheel at the contact besides its rigid motions.
     pub drift: Drift,
+    /// Shift of the wheelset \[m].
+    pub shift: f64,
+    /// Radius of rolling of the cold wheel \[m].
+    pub radius: f64,
     /// Time formula; all zero: stationary.
     pub time: TimeDerivative,
     /// Length of the step \[s]; zero: stationary.

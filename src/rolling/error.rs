@@ -88,6 +88,19 @@ pub enum StepError {
         /// The input with its value.
         input: String,
     },
+    /// A shift for which there is no patch.
+    #[error(
+        "wheelset.lateral = {shift} m is outside the shifts of contact.rows: {low} to {high} m; make the table over all shifts that the \
+         wheelset reaches"
+    )]
+    Shifted {
+        /// The shift \[m].
+        shift: f64,
+        /// Smallest shift of the table \[m].
+        low: f64,
+        /// Largest shift of the table \[m].
+        high: f64,
+    },
     /// A pose of a wheelset that the wheel does not belong to.
     #[error(
         "{input}, but the wheel belongs to no wheelset: set wheelset.side = left or right, or leave it at its start value"

@@ -87,7 +87,7 @@ impl RollingModel {
             false => None,
         };
         let contact = ContactModel::new(&config, surfaces, ActiveSetSolver::new(grid), zone.max(reach))?;
-        let wheelset = Wheelset::new(&config, contact.patch.centre, contact.patch.on_wheel);
+        let wheelset = Wheelset::new(&config, &contact.patch);
         Ok(Self {
             wheel: RigidWheel::new(&config, wheelset),
             tread: TreadLevel::of(&contact.surfaces),
@@ -145,7 +145,7 @@ impl RollingModel {
 
     /// Radius of rolling in a state \[m]: that of the cold wheel at the contact and its growth by the bulk temperature.
     pub fn rolling_radius(&self, state: &State) -> f64 {
-        self.wheel.wheelset.radius + state.growth()
+        self.wheel.wheelset.radius(state.motion.pose.lateral) + state.growth()
     }
 
     /// True if a state has the dimensions of this model and only finite numbers in its contact forces.

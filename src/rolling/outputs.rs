@@ -119,7 +119,7 @@ fn lateral_outputs(model: &RollingModel, state: &State, others: Outputs) -> Outp
         contact_spin: over_mean_speed(spin, v, v_c),
         contact_slip_direction: if model.wheel.sideways.enabled { libm::atan2(aside, along) } else { 0.0 },
         contact_tread_slip_z: aside,
-        contact_load_position: model.contact.patch.centre,
+        contact_load_position: model.contact.patch.centre(state.motion.pose.lateral),
         wheel_lateral_velocity: velocity,
         wheel_lateral_displacement: state.motion.aside,
         hub_force_z: force,

@@ -6,7 +6,9 @@ use crate::contact::{
     HalfSpace, LineKernel, LineLayout, Logarithm, NodeSize, PatchFlexibility, PatchLayout, PatchMaterial,
 };
 use crate::material::Isotropic;
+use crate::piecewise;
 use crate::surface;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Distances at which forces displace plane bodies as they displace those of wheel and rail \[m]: tangential, normal on
@@ -42,8 +44,19 @@ pub struct PatchLines {
     pub centre: f64,
     /// Place of the centre of load on the wheel.
     pub on_wheel: OnWheel,
+    /// Patches under other shifts of the wheelset, ascending; empty: the patch stays.
+    shifted: Vec<Shifted>,
     /// Free widths between every line and the one before it under the nominal load \[m]; none where all touch.
     pub gaps: Vec<f64>,
+}
+
+/// Patch under a shift of the wheelset.
+#[derive(Clone, Debug)]
+struct Shifted {
+    /// The shift \[m].
+    shift: f64,
+    patch: PatchLayout,
+    on_wheel: OnWheel,
 }
 
 /// Layouts of lines and the load.
@@ -104,34 +117,101 @@ impl PatchLines {
         let unit = config.nominal_patch().half_length;
         let (lines, radius, width, load) =
             (config.contact.lines, config.wheel.radius, config.width(), config.model.nominal_load);
-        let rows = config.patch_rows()?;
-        let on_wheel = rows.as_ref().map(|rows| rows.on_wheel).unwrap_or_default();
-        let patch = match (config.contact.shape, rows) {
-            (ContactShape::Line, _) => {
-                let patch = Self::constant(&[1.0], LineKernel::of_half_plane(steel.half_plane(), 1.0));
-                let following = LineNodes::Following { load };
-                return Ok(Self { nodes: if smooth { following } else { LineNodes::Fixed }, ..patch });
-            }
-            (_, Some(PatchRows { rows, shapes, .. })) => {
-                PatchLayout::rows(rows, &shapes, material, lines, radius, width)
-            }
-            (_, None) => PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load),
+        let (half_plane, width, load) = (steel.half_plane(), config.width(), config.model.nominal_load);
+        if let ContactShape::Line = config.contact.shape {
+            let patch = Self::constant(&[1.0], LineKernel::of_half_plane(half_plane, 1.0));
+            let following = LineNodes::Following { load };
+            return Ok(Self { nodes: if smooth { following } else { LineNodes::Fixed }, ..patch });
+        }
+        let material = PatchMaterial { half_plane, half_space };
+        let suited = |patch: PatchLayout| {
+            let patch = patch.scaling(config.nominal_patch().half_length, LEAST_SIZE);
+            // Soft steel under lateral forces makes patches longer than that of the layout, too.
+            let roomy = !smooth || config.contact.lateral && config.physics.yielding;
+            let patch = if roomy { patch.with_room() } else { patch };
+            if config.contact.lateral { patch.sideways() } else { patch }.reaching(end)
         };
-        let patch = patch.scaling(unit, LEAST_SIZE);
-        // Soft steel under lateral forces makes patches longer than that of the layout, too.
-        let roomy = !smooth || config.contact.lateral && config.physics.yielding;
-        let patch = if roomy { patch.with_room() } else { patch };
-        let patch = if config.contact.lateral { patch.sideways() } else { patch }.reaching(end);
+        let (lines, radius) = (config.contact.lines, config.wheel.radius);
+        let of_rows = |PatchRows { rows, shapes, .. }: &PatchRows| {
+            suited(PatchLayout::rows(rows.clone(), shapes, material, lines, radius, width))
+        };
+        let Some(table) = config.patch_table()? else {
+            let ellipse = PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load);
+            return Ok(Self::of(config, suited(ellipse), smooth, OnWheel::default()));
+        };
+        if table.shifts.len() > 1 && !smooth {
+            return Err(RowsError::Uneven);
+        }
+        let middle = table.middle();
+        let lines = Self::of(config, of_rows(middle), smooth, middle.on_wheel);
+        let shifted = table.shifts.iter().zip(&table.patches).filter(|_| table.shifts.len() > 1);
+        let shifted = shifted.map(|(&shift, rows)| Shifted { shift, patch: of_rows(rows), on_wheel: rows.on_wheel });
+        Ok(Self { shifted: shifted.collect(), ..lines })
+    }
+
+    /// Lines of a `patch`; on surfaces that are not `smooth` they stay.
+    fn of(config: &Config, patch: PatchLayout, smooth: bool, on_wheel: OnWheel) -> Self {
         let (count, symmetric, centre, gaps) =
             (patch.len(), patch.is_symmetric(), patch.centre(), patch.gaps().to_vec());
         let layouts = match smooth {
             true => Layouts::Sized(Box::new(patch)),
             false => {
                 let flexibility = Some(patch.flexibility().clone());
-                Layouts::Constant(patch.staying(load, longest_patch(config)), flexibility)
+                Layouts::Constant(patch.staying(config.model.nominal_load, longest_patch(config)), flexibility)
             }
         };
-        Ok(Self { layouts, nodes: LineNodes::Fixed, count, symmetric, centre, on_wheel, gaps })
+        Self { layouts, nodes: LineNodes::Fixed, count, symmetric, centre, on_wheel, shifted: Vec::new(), gaps }
+    }
+
+    /// Places of the centre of load over the shift of the wheelset \[m]: the shift, its lateral position \[m] and its place on the
+    /// wheel; one alone holds for all shifts.
+    pub fn places(&self) -> Vec<(f64, f64, OnWheel)> {
+        let of = |shifted: &Shifted| (shifted.shift, shifted.patch.centre(), shifted.on_wheel);
+        match self.shifted.is_empty() {
+            true => vec![(0.0, self.centre, self.on_wheel)],
+            false => self.shifted.iter().map(of).collect(),
+        }
+    }
+
+    /// Lines under a shift of the wheelset \[m].
+    pub fn at(&self, shift: f64) -> Cow<'_, Self> {
+        if self.shifted.is_empty() {
+            return Cow::Borrowed(self);
+        }
+        let parts: Vec<_> =
+            self.beside(shift).into_iter().map(|(k, weight)| (&self.shifted[k].patch, weight)).collect();
+        let patch = PatchLayout::blend(&parts);
+        Cow::Owned(Self {
+            layouts: Layouts::Sized(Box::new(patch.clone())),
+            nodes: self.nodes,
+            count: self.count,
+            symmetric: self.symmetric,
+            centre: patch.centre(),
+            on_wheel: self.on_wheel,
+            shifted: Vec::new(),
+            gaps: patch.gaps().to_vec(),
+        })
+    }
+
+    /// Lateral position of the centre of load under a shift of the wheelset \[m].
+    pub fn centre(&self, shift: f64) -> f64 {
+        match self.shifted.is_empty() {
+            true => self.centre,
+            false => self.beside(shift).iter().map(|(k, weight)| weight * self.shifted[*k].patch.centre()).sum(),
+        }
+    }
+
+    /// Patches of the table that count under a shift \[m], each once, and their weights.
+    fn beside(&self, shift: f64) -> Vec<(usize, f64)> {
+        let shifts: Vec<f64> = self.shifted.iter().map(|shifted| shifted.shift).collect();
+        let mut beside: Vec<(usize, f64)> = Vec::new();
+        for (k, weight) in piecewise::cubic(&shifts, shift) {
+            match beside.iter_mut().find(|(other, _)| *other == k) {
+                Some((_, sum)) => *sum += weight,
+                None => beside.push((k, weight)),
+            }
+        }
+        beside
     }
 
     /// Lines with given shares of the width and one flexibility.

@@ -308,6 +308,8 @@ fn solve_and_commit(
         free,
         rigid: model.wheel.motions(&state.motion, drives, [td, of_height], *speeds, free[0].momentum, lateral),
         drift: model.wheel.wheelset.drift(demand.target),
+        shift: demand.target.lateral,
+        radius: model.wheel.wheelset.radius(demand.target.lateral),
         time: *td,
         duration: *dt,
         rise: plan.rise,

@@ -10,9 +10,11 @@
 
 use super::control::{Drive, Inputs};
 use super::error::StepError;
+use super::patch_lines::PatchLines;
 use crate::axes::PerAxis;
 use crate::config::{Config, OnWheel, WheelsetSide, display_number};
 use crate::contact::{BySpeed, Drift};
+use crate::piecewise;
 use serde::{Deserialize, Serialize};
 
 /// Pose of a wheelset in the axes of the track, and its rates.
@@ -55,31 +57,64 @@ pub struct Wrench {
     pub moment: [f64; 3],
 }
 
-/// Place of a wheel in its wheelset.
+/// Where a wheel touches its rail.
 #[derive(Clone, Copy, Debug)]
-pub struct Wheelset {
-    /// 1 for the right wheel, −1 for the left one; `None`: the host says what the wheel does at the contact.
-    side: Option<f64>,
-    /// Lateral place of the centre of load from the middle \[m].
+struct Stand {
+    /// Lateral place of the centre of load from the middle of the wheelset \[m].
     arm: f64,
     /// Radius of rolling \[m].
-    pub radius: f64,
+    radius: f64,
     /// Angle between the plane of contact and the axle \[rad].
     angle: f64,
 }
 
+/// Place of a wheel in its wheelset.
+#[derive(Clone, Debug)]
+pub struct Wheelset {
+    /// 1 for the right wheel, −1 for the left one; `None`: the host says what the wheel does at the contact.
+    side: Option<f64>,
+    /// Shifts of the wheelset, ascending \[m], and where the wheel touches under them.
+    shifts: Vec<f64>,
+    stands: Vec<Stand>,
+}
+
 impl Wheelset {
-    /// From the parameters; `centre` is the lateral place of the centre of load in the patch \[m]. A wheel without a wheelset rolls
-    /// on its own radius, whatever its rows say.
-    pub fn new(config: &Config, centre: f64, on_wheel: OnWheel) -> Self {
+    /// From the parameters and the lines of the patch. A wheel without a wheelset rolls on its own radius, whatever its rows say.
+    pub fn new(config: &Config, patch: &PatchLines) -> Self {
         let side = match config.wheelset.side {
             WheelsetSide::None => None,
             WheelsetSide::Left => Some(-1.0),
             WheelsetSide::Right => Some(1.0),
         };
-        let OnWheel { angle, radius, lateral } = if side.is_some() { on_wheel } else { OnWheel::default() };
-        let arm = side.map_or(0.0, |side| side * config.wheelset.half_spacing + lateral.unwrap_or(centre));
-        Self { side, arm, radius: radius.unwrap_or(config.wheel.radius), angle }
+        let place = |(shift, centre, on_wheel): (f64, f64, OnWheel)| {
+            let OnWheel { angle, radius, lateral } = if side.is_some() { on_wheel } else { OnWheel::default() };
+            let arm = side.map_or(0.0, |side| side * config.wheelset.half_spacing + lateral.unwrap_or(centre));
+            (shift, Stand { arm, radius: radius.unwrap_or(config.wheel.radius), angle })
+        };
+        let (shifts, stands) = patch.places().into_iter().map(place).unzip();
+        Self { side, shifts, stands }
+    }
+
+    /// Where the wheel touches under a shift of the wheelset \[m].
+    fn stand(&self, shift: f64) -> Stand {
+        let beside = piecewise::cubic(&self.shifts, shift);
+        let sum = |of: fn(&Stand) -> f64| beside.iter().map(|(k, weight)| weight * of(&self.stands[*k])).sum();
+        Stand { arm: sum(|stand| stand.arm), radius: sum(|stand| stand.radius), angle: sum(|stand| stand.angle) }
+    }
+
+    /// Radius of rolling under a shift of the wheelset \[m].
+    pub fn radius(&self, shift: f64) -> f64 {
+        self.stand(shift).radius
+    }
+
+    /// Refuses shifts for which there is no patch.
+    pub fn within(&self, drive: &Drive) -> Result<(), StepError> {
+        let (Some(&low), Some(&high)) = (self.shifts.first(), self.shifts.last()) else { return Ok(()) };
+        let shift = drive.lateral;
+        match low == high || (low..=high).contains(&shift) {
+            true => Ok(()),
+            false => Err(StepError::Shifted { shift, low, high }),
+        }
     }
 
     /// Refuses inputs of the one kind of host where the other one is told of.
@@ -110,9 +145,10 @@ impl Wheelset {
         }
     }
 
-    /// Angle between the plane of contact and the track \[rad].
-    fn slope(&self, pose: &Pose) -> f64 {
-        self.angle - pose.roll
+    /// Where the wheel touches in a pose, and the angle between the plane of contact and the track \[rad].
+    fn touches(&self, pose: &Pose) -> (Stand, f64) {
+        let stand = self.stand(pose.lateral);
+        (stand, stand.angle - pose.roll)
     }
 
     /// Drift of the surface of the wheel at the centre of load besides its rigid motions under inputs.
@@ -122,14 +158,11 @@ impl Wheelset {
             return Drift { spin, ..Drift::default() };
         }
         let pose = Pose::of(drive);
-        let ([yaw, cos_yaw], [slope, rises]) = (both(pose.yaw), both(self.slope(&pose)));
+        let (Stand { arm, radius, .. }, slope) = self.touches(&pose);
+        let ([yaw, cos_yaw], [slope, rises]) = (both(pose.yaw), both(slope));
         let [roll, level] = both(pose.roll);
-        let along = BySpeed {
-            constant: -self.arm * pose.yaw_rate,
-            per_rotation: self.radius * (1.0 - cos_yaw),
-            per_travel: 0.0,
-        };
-        let across = BySpeed { per_rotation: -self.radius * yaw / rises, ..BySpeed::default() };
+        let along = BySpeed { constant: -arm * pose.yaw_rate, per_rotation: radius * (1.0 - cos_yaw), per_travel: 0.0 };
+        let across = BySpeed { per_rotation: -radius * yaw / rises, ..BySpeed::default() };
         let turn = roll * rises + cos_yaw * level * slope;
         let spin = BySpeed { constant: pose.yaw_rate * rises, per_rotation: -turn, per_travel: 0.0 };
         Drift { along, across, spin, rise: slope / rises }
@@ -142,13 +175,14 @@ impl Wheelset {
             return drive.lateral_velocity;
         }
         let pose = Pose::of(drive);
-        (pose.lateral_rate - self.radius * pose.roll_rate) / libm::cos(self.slope(&pose))
+        let (Stand { radius, .. }, slope) = self.touches(&pose);
+        (pose.lateral_rate - radius * pose.roll_rate) / libm::cos(slope)
     }
 
     /// Cosine of the angle between the plane of contact and the track: a vertical load presses on this plane with the load over it,
     /// less what lifts the wheel along the plane, see [`Drift::rise`].
     pub fn level(&self, drive: &Drive) -> f64 {
-        if self.side.is_none() { 1.0 } else { libm::cos(self.slope(&Pose::of(drive))) }
+        if self.side.is_none() { 1.0 } else { libm::cos(self.touches(&Pose::of(drive)).1) }
     }
 
     /// Wrench of contact forces on the wheelset: `force` on the wheel along, normal to and across in the plane of contact, with
@@ -157,17 +191,15 @@ impl Wheelset {
         if self.side.is_none() {
             return Wrench::default();
         }
-        let ([slope, rises], [yaw, _]) = (both(self.slope(pose)), both(pose.yaw));
+        let (Stand { arm, radius, .. }, slope) = self.touches(pose);
+        let ([slope, rises], [yaw, _]) = (both(slope), both(pose.yaw));
         let [x, y, z] =
             [force.travel, force.height * rises + force.lateral * slope, force.lateral * rises - force.height * slope];
         // A turned wheel touches ahead of or behind its axle.
-        let ahead = yaw * (self.radius * slope / rises - self.arm);
-        let below = -self.radius - self.arm * pose.roll;
-        let moment = [
-            below * z - self.arm * y,
-            self.arm * x - ahead * z + spin * rises,
-            ahead * y - force.rotation - spin * slope,
-        ];
+        let ahead = yaw * (radius * slope / rises - arm);
+        let below = -radius - arm * pose.roll;
+        let moment =
+            [below * z - arm * y, arm * x - ahead * z + spin * rises, ahead * y - force.rotation - spin * slope];
         Wrench { force: [x, y, z], moment }
     }
 }

@@ -66,6 +66,30 @@ struct Left {
     reach: f64,
 }
 
+impl Left {
+    fn blended<'a>(parts: impl Iterator<Item = (&'a [Self], f64)>) -> Vec<Self> {
+        let mut sum: Vec<Self> = Vec::new();
+        for (part, weight) in parts {
+            sum.resize(part.len(), Self { factor: 0.0, reach: 0.0 });
+            for (sum, left) in sum.iter_mut().zip(part) {
+                sum.factor += weight * left.factor;
+                sum.reach += weight * left.reach;
+            }
+        }
+        sum
+    }
+}
+
+/// Sum of tables, times weights.
+fn blended<'a>(parts: impl Iterator<Item = (&'a [Between], f64)>) -> Vec<Between> {
+    let mut sum: Vec<Between> = Vec::new();
+    for (part, weight) in parts {
+        sum.resize(part.len(), Between::default());
+        sum.iter_mut().zip(part).for_each(|(sum, between)| sum.add(weight, between));
+    }
+    sum
+}
+
 /// A line as part of a patch that displaces it.
 #[derive(Clone, Copy)]
 pub struct InPatch<'a> {
@@ -104,6 +128,26 @@ impl PatchFlexibility {
         let askew = table(tiles, factor, &|_| false, |at, of, x| at.displaced_askew_by(of, x, nu));
         let left = leave(&mut across, tiles, 2.0 * factor);
         Self { lateral: Some(LateralTables { across, left, askew }), ..self }
+    }
+
+    /// Sum of flexibilities of as many lines, times weights.
+    ///
+    /// # Panics
+    /// Without parts.
+    pub fn blend(parts: &[(&Self, f64)]) -> Self {
+        let lateral: Option<Vec<_>> =
+            parts.iter().map(|(part, weight)| Some((part.lateral.as_ref()?, *weight))).collect();
+        let own: Vec<_> = parts.iter().map(|(part, weight)| (*part, *weight)).collect();
+        Self {
+            lines: parts[0].0.lines,
+            pairs: blended(own.iter().map(|(part, weight)| (&part.pairs[..], *weight))),
+            left: Left::blended(own.iter().map(|(part, weight)| (&part.left[..], *weight))),
+            lateral: lateral.map(|parts| LateralTables {
+                across: blended(parts.iter().map(|(part, weight)| (&part.across[..], *weight))),
+                left: Left::blended(parts.iter().map(|(part, weight)| (&part.left[..], *weight))),
+                askew: blended(parts.iter().map(|(part, weight)| (&part.askew[..], *weight))),
+            }),
+        }
     }
 
     /// Logarithm for the displacement of each body that is left to a line of the given half-length \[m], along (0) or

@@ -28,6 +28,17 @@ pub struct Between {
     pub growth: ByMoments,
 }
 
+impl Between {
+    /// Adds a multiple of another one.
+    pub fn add(&mut self, factor: f64, other: &Self) {
+        let ours = [&mut self.displacement, &mut self.strain, &mut self.growth];
+        for (ours, theirs) in ours.into_iter().zip([&other.displacement, &other.strain, &other.growth]) {
+            let theirs = theirs.as_flattened();
+            ours.as_flattened_mut().iter_mut().zip(theirs).for_each(|(ours, theirs)| *ours += factor * theirs);
+        }
+    }
+}
+
 /// Exponent α of the weight \[1]: linear theory within 2 %, with least loss where lines slip.
 const EXPONENT: f64 = -0.2;
 /// Places on the displaced line, and on each part of the line of the force, by which kernels become polynomials.

@@ -49,6 +49,7 @@ pub fn start(
     inputs.validate()?;
     model.wheel.sideways.check(inputs)?;
     model.wheel.wheelset.check(inputs)?;
+    model.wheel.wheelset.within(&inputs.drive)?;
     let goal = Goal::new(model, inputs)?;
     let mut state = settled(model, tuning, &goal, workspace)?;
     let mut decisions = Decisions::default();

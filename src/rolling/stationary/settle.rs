@@ -144,6 +144,8 @@ impl Pass<'_> {
             free,
             rigid: goal.motions(model, trial, self.touching, state.rigid(), free[0].momentum),
             drift: goal.drift(model),
+            shift: goal.drive.lateral,
+            radius: model.wheel.wheelset.radius(goal.drive.lateral),
             time: td,
             duration: 0.0,
             rise: 0.0,

@@ -129,6 +129,7 @@ fn advance_until(
     }
     let end = inputs.at(h);
     end.validate()?;
+    model.wheel.wheelset.within(&end)?;
     let PerAxis { travel: velocity, height: displacement, rotation: omega, lateral } = state.motion.values();
     let drive = state.motion.pose.into(inputs.at(0.0));
     let start = Drive { omega, velocity, displacement, lateral_velocity: lateral, ..drive };
