@@ -51,7 +51,7 @@ impl Config {
             ContactShape::Rows if patch_rows::is_file(text) => Err(RowsError::Unread(text.clone())),
             ContactShape::Rows => {
                 let given = PatchTable::parse(text, self.contact.rows_load)?;
-                if given.shifts.len() > 1 && matches!(self.wheelset.side, WheelsetSide::None) {
+                if given.shifts.len() > 1 && !self.wheelset.side.is_known() {
                     return Err(RowsError::NoWheelset);
                 }
                 let grown = given.grown(libm::cbrt(self.model.nominal_load / self.contact.rows_load));

@@ -113,10 +113,6 @@ impl PatchLines {
         let steel = Isotropic::from(&config.material);
         let half_space =
             HalfSpace { shear_modulus: steel.shear_modulus(), poissons_ratio: config.material.poissons_ratio };
-        let material = PatchMaterial { half_plane: steel.half_plane(), half_space };
-        let unit = config.nominal_patch().half_length;
-        let (lines, radius, width, load) =
-            (config.contact.lines, config.wheel.radius, config.width(), config.model.nominal_load);
         let (half_plane, width, load) = (steel.half_plane(), config.width(), config.model.nominal_load);
         if let ContactShape::Line = config.contact.shape {
             let patch = Self::constant(&[1.0], LineKernel::of_half_plane(half_plane, 1.0));
@@ -226,6 +222,7 @@ impl PatchLines {
             symmetric: false,
             centre: 0.0,
             on_wheel: OnWheel::default(),
+            shifted: Vec::new(),
             gaps: Vec::new(),
         }
     }
