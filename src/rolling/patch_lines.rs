@@ -1,7 +1,7 @@
 //! Lines of the patch in which wheel and rail touch.
 
 use super::line::Line;
-use crate::config::{Config, ContactShape, OnWheel, PatchRows, RowsError};
+use crate::config::{Config, OnWheel, PatchRows, RowsError};
 use crate::contact::{
     HalfSpace, LineKernel, LineLayout, Logarithm, NodeSize, PatchFlexibility, PatchLayout, PatchMaterial,
 };
@@ -114,7 +114,7 @@ impl PatchLines {
         let half_space =
             HalfSpace { shear_modulus: steel.shear_modulus(), poissons_ratio: config.material.poissons_ratio };
         let (half_plane, width, load) = (steel.half_plane(), config.width(), config.model.nominal_load);
-        if let ContactShape::Line = config.contact.shape {
+        if config.contact.shape.is_line() {
             let patch = Self::constant(&[1.0], LineKernel::of_half_plane(half_plane, 1.0));
             let following = LineNodes::Following { load };
             return Ok(Self { nodes: if smooth { following } else { LineNodes::Fixed }, ..patch });
