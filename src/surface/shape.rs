@@ -94,13 +94,23 @@ impl Surfaces {
     /// Rolling brings the material ahead under the contact: at `x` lie the angle `angle + x/r` of the wheel (0: below
     /// its centre at the start) and the distance `distance + x` of the rail.
     pub fn depth(&self, x: f64, at: &Placement) -> [f64; 2] {
-        let positions = [at.angle * self.radius + x, at.distance + x];
+        let positions = self.positions(x, at);
         let [wheel, rail] = self.heights(positions);
         let depth = |body: usize| match at.flattening[body] {
             flattening if flattening.is_empty() => 0.0,
             flattening => flattening.depth(positions[body]),
         };
         [depth(0) - wheel, depth(1) - rail]
+    }
+
+    /// Depth \[m] of the dents of wheel and rail together at `x` \[m].
+    pub fn dents(&self, x: f64, at: &Placement) -> f64 {
+        at.flattening.iter().zip(self.positions(x, at)).map(|(flattening, s)| flattening.dent(s)).sum()
+    }
+
+    /// Positions \[m] of what lies at `x` \[m] along the surfaces of wheel and rail.
+    fn positions(&self, x: f64, at: &Placement) -> [f64; 2] {
+        [at.angle * self.radius + x, at.distance + x]
     }
 
     /// Heights \[m] of the profiles of wheel and rail at positions \[m] along their surfaces.
