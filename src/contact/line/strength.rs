@@ -10,9 +10,9 @@
 //! slip.
 
 use super::grid::ContactGrid;
+use super::state::GridState;
 use crate::contact::film;
 use crate::contact::limits::SLIDES;
-use crate::contact::line::state::GridState;
 use crate::contact::problem::LineProblem;
 
 /// Difference of two ratios of shear and pressure that is rounding \[1].
