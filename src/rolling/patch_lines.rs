@@ -122,9 +122,7 @@ impl PatchLines {
         let material = PatchMaterial { half_plane, half_space };
         let suited = |patch: PatchLayout| {
             let patch = patch.scaling(config.nominal_patch().half_length, LEAST_SIZE);
-            // Soft steel under lateral forces makes patches longer than that of the layout, too.
-            let roomy = !smooth || config.contact.lateral && config.physics.yielding;
-            let patch = if roomy { patch.with_room() } else { patch };
+            let patch = if smooth { patch } else { patch.with_room() };
             if config.contact.lateral { patch.sideways() } else { patch }.reaching(end)
         };
         let (lines, radius) = (config.contact.lines, config.wheel.radius);
