@@ -4,7 +4,7 @@ mod common;
 use common::*;
 use nalgebra::Matrix4;
 use std::sync::Arc;
-use wheelrail::config::{Config, WheelsetSide};
+use wheelrail::config::{Config, ContactShape, WheelsetSide};
 use wheelrail::simulation::{Drive, Inputs, Lateral, Model, Outputs, Rotation, Simulation, Translation};
 
 /// Speed \[m/s] and half of the distance of the running circles \[m].
@@ -146,6 +146,100 @@ fn a_pose_moves_linearly_within_a_step() {
     println!("{coarse:.5} {fine:.5} {finer:.5}");
     figure("wheelset.linear", &[(coarse - finer).abs(), (fine - finer).abs()]);
     assert!((coarse - finer).abs() < 0.02 && (fine - finer).abs() < 0.006 && finer.abs() > 0.02);
+}
+
+/// Rows of an elliptical patch that becomes longer, narrower and steeper as the wheelset shifts to the right \[m], on a cone.
+fn block(shift: f64) -> String {
+    let (count, longer, angle) = (7, 1.0 + 40.0 * shift, 0.05 + 8.0 * shift);
+    let row = |k: i32| {
+        let z = (f64::from(k) + 0.5) * 2.0 / f64::from(count) - 1.0;
+        let half_length = 5.8e-3 * longer * (1.0 - z * z).sqrt();
+        let (place, width) = (4.6e-3 / longer, 9.2e-3 / (longer * f64::from(count)));
+        let (position, radius) = (place * z + 0.5 * shift, 0.46 + CONE * shift);
+        format!("{shift},{position},{half_length},{},{width},{angle},{radius},0\n", 1.0 - z * z)
+    };
+    (0..count).map(row).collect()
+}
+
+/// A right wheel with the patches of some shifts \[m].
+fn on_table(shifts: &[f64]) -> Arc<Model> {
+    let rows: String = shifts.iter().map(|shift| block(*shift)).collect();
+    wheel(WheelsetSide::Right, |config| {
+        (config.contact.shape, config.contact.lines) = (ContactShape::Rows, 7);
+        config.contact.rows = format!("shift,position,half_length,load_share,width,angle,radius,lateral\n{rows}");
+    })
+}
+
+#[test]
+fn the_patch_of_a_shift_is_that_of_its_rows_alone() {
+    let shifts = [-4e-3, -2e-3, 0.0, 1e-3, 3e-3];
+    let table = on_table(&shifts);
+    for shift in [0.0, 1e-3, -2e-3] {
+        let alone = on_table(&[shift]);
+        let [of_table, expected] = [&table, &alone].map(|model| {
+            wrench(&rolling(model, 4e-4, |drive| {
+                (drive.lateral, drive.yaw, drive.lateral_rate) = (shift, 5e-4, 2e-3);
+            }))
+        });
+        let missed = (0..6).map(|k| (of_table[k] - expected[k]).abs() / LIMIT).fold(0.0, f64::max);
+        println!("shift {shift}: {of_table:.1?}, missed {missed:.1e}");
+        figure("wheelset.table", &[missed]);
+        // Nodes have the size that suits the patch in the middle of the table.
+        assert!(missed < if shift == 0.0 { 1e-9 } else { 3e-3 } && expected[0].abs() > 0.05 * LIMIT);
+    }
+}
+
+/// From patch to patch of the table, forces change without steps or kinks.
+#[test]
+fn forces_follow_the_shift_smoothly() {
+    let model = on_table(&[-2e-3, -1e-3, 0.0, 1e-3, 2e-3]);
+    let forces: Vec<f64> = (0..60)
+        .map(|k| {
+            rolling(&model, 4e-4, |drive| (drive.lateral, drive.yaw) = (-1.5e-3 + 5e-5 * f64::from(k), 5e-4))
+                .wheelset_force_z
+        })
+        .collect();
+    let mut steps: Vec<f64> = forces.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let bends = forces.windows(3).map(|v| (v[2] - 2.0 * v[1] + v[0]).abs()).fold(0.0, f64::max);
+    steps.sort_by(f64::total_cmp);
+    let (median, largest) = (steps[steps.len() / 2], steps[steps.len() - 1]);
+    println!("steps of {median:.2} N in the median, {largest:.2} N at most, bends of {bends:.2} N");
+    figure("wheelset.smooth", &[largest / median]);
+    assert!(
+        median > 1.0 && largest < 3.0 * median && bends < 0.3 * median.max(0.3 * largest),
+        "{largest} {median} {bends}"
+    );
+}
+
+#[test]
+fn shifts_outside_the_table_and_tables_that_are_none_are_refused_by_name() {
+    let model = on_table(&[-1e-3, 0.0, 1e-3]);
+    let mut inputs = prescribed(&model, V, 0.0);
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    inputs.drive.lateral = 1.2e-3;
+    let text = simulation.advance(&inputs, 1e-3).unwrap_err().to_string();
+    assert!(
+        text.contains("wheelset.lateral = 0.0012 m is outside the shifts of contact.rows: -0.001 to 0.001 m"),
+        "{text}"
+    );
+    inputs.drive.lateral = 1e-3;
+    simulation.advance(&inputs, 1e-3).unwrap();
+    let refused = |rows: String, side: WheelsetSide| {
+        let mut config = preset("railway_ellipse", 8);
+        (config.contact.lateral, config.contact.shape, config.wheelset.side) = (true, ContactShape::Rows, side);
+        config.contact.rows = format!("shift,position,half_length,load_share,width,angle,radius,lateral\n{rows}");
+        config.validate().unwrap_err().to_string()
+    };
+    let [left, right] = [block(-1e-3), block(1e-3)];
+    let fewer = right.lines().skip(1).map(|line| format!("{line}\n")).collect::<String>();
+    for (rows, side, words) in [
+        (format!("{right}{left}"), WheelsetSide::Right, "sort the blocks"),
+        (format!("{left}{fewer}"), WheelsetSide::Right, "the block of shift = 0.001 m has 6 rows, the first one 7"),
+        (format!("{left}{right}"), WheelsetSide::None, "set wheelset.side = left or right"),
+    ] {
+        let text = refused(rows, side);
+        assert!(text.contains(words), "{text}");
+    }
 }
 
 /// Conicity \[1], mass \[kg] and moment of inertia [kg m²] of a wheelset on springs [N/m, N m].
