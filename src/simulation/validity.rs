@@ -6,7 +6,7 @@ mod texts;
 use super::Simulation;
 use crate::contact::FrictionLaw;
 use crate::material::{BOILS, INDENTATION};
-use crate::mechanics::{grid_spacing, nominal_half_width};
+use crate::mechanics::grid_spacing;
 use crate::rolling::line::Line;
 
 /// Makes the enumeration and the list of its items.
