@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .profile_files import Profile
-from .smooth import Spline
+from .smooth import Spline, between
 
 STEP = 2e-5  # m, between places of a profile
 BELOW_TOP = 0.014  # m, at which the gauge is measured (EN 13848-1)
@@ -109,7 +109,7 @@ class Side:
         rail, rail_z, angle = self.rail[near], self.rail_z[near], self.angle[near]
         height = np.zeros(len(near))
         for _ in range(8):  # Newton: the wheel's slope is about that of the rail
-            height += np.cos(angle) * (np.interp(rail - height * np.sin(angle), u, z) - rail_z - height * np.cos(angle))
+            height += np.cos(angle) * (between(rail - height * np.sin(angle), u, z) - rail_z - height * np.cos(angle))
         at = rail - height * np.sin(angle)
         wheel = np.interp(at, u, self.u[use])
         return Gap(self.along[near], height, np.interp(at, u, ahead), np.interp(at, u, curvature), angle, rail, wheel, int(np.argmin(height)))

@@ -12,6 +12,7 @@ import numpy as np
 
 from .contact_geometry import Gap, Pose, Side
 from .half_space import Tiles
+from .smooth import between
 
 COARSE, FINE = (24, 96), (49, 160)  # tiles along the track and across
 MARGIN = 1.12  # times the approach: gaps up to there are looked at, a second place included
@@ -94,7 +95,7 @@ def _pressed(gap, part, ends, count, load, modulus):
     along = begin + step[1] * (np.arange(count[1]) + 0.5)
     at = lambda values: np.interp(along, gap.along, values)
     away = ahead[:, None] - (at(gap.ahead) - gap.ahead[gap.touch])
-    pressed = Tiles(count, step, modulus).press(at(gap.height) + 0.5 * at(gap.curvature) * away**2, np.cos(at(gap.angle)), load)
+    pressed = Tiles(count, step, modulus).press(between(along, gap.along, gap.height) + 0.5 * at(gap.curvature) * away**2, np.cos(at(gap.angle)), load)
     return _Solved(pressed.pressure, pressed.approach, ahead, along, step)
 
 
