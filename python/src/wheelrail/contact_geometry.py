@@ -16,7 +16,7 @@ from .smooth import Spline, between
 
 STEP = 2e-5  # m, between places of a profile
 BELOW_TOP = 0.014  # m, at which the gauge is measured (EN 13848-1)
-REACH = 0.025  # m, to either side of the place of contact, in which the gap is looked at
+REACH = 0.045  # m, to either side of the place of contact, in which the gap is looked at
 
 
 class Pose(NamedTuple):
@@ -107,10 +107,10 @@ class Side:
         middle = int(np.argmin(np.abs(self.rail[near] - self.over(pose)[2][1][least])))
         near = near[np.abs(self.along[near] - self.along[near[middle]]) < REACH]
         rail, rail_z, angle = self.rail[near], self.rail_z[near], self.angle[near]
-        height = np.zeros(len(near))
+        height, at = np.zeros(len(near)), rail
         for _ in range(8):  # Newton: the wheel's slope is about that of the rail
-            height += np.cos(angle) * (between(rail - height * np.sin(angle), u, z) - rail_z - height * np.cos(angle))
-        at = rail - height * np.sin(angle)
+            height += np.cos(angle) * (between(at, u, z) - rail_z - height * np.cos(angle))
+            at = np.clip(rail - height * np.sin(angle), u[0], u[-1])
         wheel = np.interp(at, u, self.u[use])
         return Gap(self.along[near], height, np.interp(at, u, ahead), np.interp(at, u, curvature), angle, rail, wheel, int(np.argmin(height)))
 

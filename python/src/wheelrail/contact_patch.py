@@ -1,7 +1,7 @@
-"""Contact patch of a wheel that is pressed on a rail: strips along the rail with their loads, and the rows in which the table has them.
+"""Contact patch of a wheel that is pressed on a rail: strips along the rail with their loads, and the rows in which a table has them.
 
-The wheel comes down on the rail, and each place of it by the cosine of its angle towards the surface. Lengths in the patch are those
-along the head of the rail, and the gap is measured normal to it: two places of contact with two angles are one patch.
+The wheel comes down on the rail, and towards each place of it by the cosine of its angle. Lengths in the patch are those along the head
+of the rail, and the gap is normal to it: two places of contact with two angles are one patch.
 """
 
 from __future__ import annotations
@@ -11,23 +11,28 @@ from typing import NamedTuple
 import numpy as np
 
 from .contact_geometry import Gap, Pose, Side
-from .half_space import Tiles
+from .half_space import Pressed, Tiles
 from .smooth import between
 
 COARSE, FINE = (24, 96), (49, 160)  # tiles along the track and across
 MARGIN = 1.12  # times the approach: gaps up to there are looked at, a second place included
 
 
+class EndOfProfile(ValueError):
+    """A patch that reaches over the end of a profile."""
+
+
 class Strips(NamedTuple):
-    """A patch in strips of one width along the track, from the gauge side to the field side."""
+    """A patch in strips of one width along the track, from the gauge side to the field side of a wheel."""
 
     edge: np.ndarray  # positions of their sides: lengths along the wheel's profile from the taping circle, to the field side positive [m]
-    line_load: np.ndarray  # loads, normal to the surface, per width [N/m]
+    line_load: np.ndarray  # loads normal to the surface, per width [N/m]
     peak: np.ndarray  # largest pressures [Pa]
+    half_length: np.ndarray  # of half ellipses of pressure with that load and pressure [m]
     angle: np.ndarray  # of the contact, positive where it rises to the field side [rad]
     radius: np.ndarray  # of the wheel there [m]
-    lateral: np.ndarray  # lateral positions on the wheel from the taping circle [m]
-    rail: np.ndarray  # lateral positions on the rail from its origin [m]
+    lateral: np.ndarray  # on the wheel from the taping circle [m]
+    rail: np.ndarray  # lateral position on the rail from its origin [m]
     gap: np.ndarray  # before loading [m]
     approach: float  # of wheel and rail, downwards [m]
 
@@ -37,105 +42,79 @@ class Strips(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """A patch in few rows, from the gauge side to the field side."""
+    """A patch in few rows, from the gauge side to the field side of a wheel; lengths in metres, angles in radians."""
 
-    position: np.ndarray  # m, of the middle of each: length along the wheel's profile from the taping circle
-    half_length: np.ndarray  # m, of the half ellipse of pressure with the row's load and pressure
-    load_share: np.ndarray  # 1
-    width: np.ndarray  # m
-    angle: np.ndarray  # rad
-    radius: np.ndarray  # m
-    lateral: np.ndarray  # m
+    position: np.ndarray  # of the middle of each row, as the sides of strips
+    half_length: np.ndarray
+    load_share: np.ndarray
+    width: np.ndarray
+    angle: np.ndarray
+    radius: np.ndarray
+    lateral: np.ndarray
 
 
 def strips(side: Side, pose: Pose, load: float, modulus: float) -> Strips:
     """Strips of the patch of one wheel under a load [N] normal to the surfaces; `modulus` [Pa] as in `Tiles`."""
     gap = side.gap(pose)
-    lean = np.cos(gap.angle)
-    lead = float(gap.curvature[gap.touch])
-    depth = 3.0 * (load / modulus) ** (2.0 / 3.0) * max(lead, 1.0) ** (1.0 / 3.0)  # an ample guess of the approach
-    part = _within(gap.height < depth * lean)
-    half = np.sqrt(2.0 * depth / lead)
-    first = _pressed(gap, part, (-half, half), COARSE, load, modulus)
-    while first.approach * MARGIN > depth:  # a gap that is nearly even
-        depth = 1.5 * first.approach * MARGIN
-        part, half = _within(gap.height < depth * lean), np.sqrt(2.0 * depth / lead)
-        first = _pressed(gap, part, (-half, half), COARSE, load, modulus)
-    part = _within(gap.height < MARGIN * first.approach * lean)
-    loaded = first.pressure > 0.0
-    across = np.flatnonzero(np.any(loaded, axis=0))
-    ends = np.interp([first.along[max(across[0] - 1, 0)], first.along[min(across[-1] + 1, len(first.along) - 1)]], gap.along[part], part)
-    part = np.arange(int(ends[0]), int(ends[1]) + 1)
-    rows = np.flatnonzero(np.any(loaded, axis=1))
-    size = first.ahead[1] - first.ahead[0]
-    return _strips(side, gap, _pressed(gap, part, (first.ahead[rows[0]] - size, first.ahead[rows[-1]] + size), FINE, load, modulus))
+    curvature = max(float(gap.curvature[gap.touch]), 0.1)
+    reach = lambda depth: np.array([-1.0, 1.0]) * np.sqrt(2.0 * depth / curvature)
+    depth = 3.0 * (load / modulus) ** (2.0 / 3.0) * curvature ** (1.0 / 3.0)  # an ample guess of the approach
+    ahead, along, pressed = _pressed(gap, _part(gap, depth), reach(depth), COARSE, load, modulus)
+    while pressed.approach * MARGIN > depth:  # on the flange
+        depth = 1.5 * pressed.approach * MARGIN
+        ahead, along, pressed = _pressed(gap, _part(gap, depth), reach(depth), COARSE, load, modulus)
+    rows, columns = (np.flatnonzero(np.any(pressed.pressure > 0.0, axis=axis)) for axis in (1, 0))
+    size = ahead[1] - ahead[0]
+    part = np.searchsorted(gap.along, along[[columns[0], columns[-1]]] + (along[1] - along[0]) * np.array([-1.0, 1.0]))
+    part = max(part[0], 0), min(part[1], len(gap.along) - 1)
+    ahead, along, pressed = _pressed(gap, part, ahead[[rows[0], rows[-1]]] + [-size, size], FINE, load, modulus)
+    return _strips(side, gap, ahead, along, pressed)
 
 
-class _Solved(NamedTuple):
-    """Pressures on tiles."""
-
-    pressure: np.ndarray
-    approach: float
-    ahead: np.ndarray  # middles of the tiles along the track, from where the wheel touches [m]
-    along: np.ndarray  # and along the head of the rail [m]
-    step: tuple
+def _part(gap, depth):
+    """First and last place where surfaces lie nearer than `depth` [m] in the direction of approach."""
+    found = np.flatnonzero(gap.height < depth * np.cos(gap.angle))
+    if found[0] == 0 or found[-1] == len(gap.height) - 1:
+        raise EndOfProfile
+    return found[0], found[-1]
 
 
-def _within(inside):
-    """Numbers from the first true one to the last."""
-    found = np.flatnonzero(inside)
-    return np.arange(found[0], found[-1] + 1)
-
-
-def _pressed(gap, part, ends, count, load, modulus):
-    """Pressures on tiles over a part of the gap, between two ends along the track."""
-    begin, end = gap.along[part[0]], gap.along[part[-1]]
-    step = (ends[1] - ends[0]) / count[0], (end - begin) / count[1]
-    ahead = ends[0] + step[0] * (np.arange(count[0]) + 0.5)
-    along = begin + step[1] * (np.arange(count[1]) + 0.5)
+def _pressed(gap: Gap, part, ends, count, load, modulus) -> tuple[np.ndarray, np.ndarray, Pressed]:
+    """Pressures on tiles over a part of the gap, between two ends along the track; middles of the tiles along the track and the head."""
+    begin = np.array([ends[0], gap.along[part[0]]])
+    step = (np.array([ends[1], gap.along[part[1]]]) - begin) / count
+    ahead, along = (first + size * (np.arange(number) + 0.5) for first, size, number in zip(begin, step, count))
     at = lambda values: np.interp(along, gap.along, values)
-    away = ahead[:, None] - (at(gap.ahead) - gap.ahead[gap.touch])
-    pressed = Tiles(count, step, modulus).press(between(along, gap.along, gap.height) + 0.5 * at(gap.curvature) * away**2, np.cos(at(gap.angle)), load)
-    return _Solved(pressed.pressure, pressed.approach, ahead, along, step)
+    away = ahead[:, None] - at(gap.ahead) + gap.ahead[gap.touch]
+    height = between(along, gap.along, gap.height) + 0.5 * at(gap.curvature) * away**2
+    return ahead, along, Tiles(count, step, modulus).press(height, np.cos(at(gap.angle)), load)
 
 
-def _strips(side, gap, solved):
-    """Strips of a patch on tiles."""
-    at = lambda values, along=solved.along: np.interp(along, gap.along, values)
-    sides = np.concatenate([solved.along - 0.5 * solved.step[1], solved.along[-1:] + 0.5 * solved.step[1]])
-    wheel = at(gap.wheel)
-    return Strips(
-        edge=np.interp(at(gap.wheel, sides), side.u, side.length),
-        line_load=solved.step[0] * np.sum(solved.pressure, axis=0),
-        peak=np.max(solved.pressure, axis=0),
-        angle=at(gap.angle),
-        radius=side.radius - np.interp(wheel, side.u, side.z),
-        lateral=wheel,
-        rail=at(gap.rail),
-        gap=at(gap.height),
-        approach=solved.approach,
-    )
+def _strips(side, gap, ahead, along, pressed):
+    """Strips of the pressures on tiles."""
+    step = along[1] - along[0]
+    at = lambda values, along=along: np.interp(along, gap.along, values)
+    sides = np.append(along - 0.5 * step, along[-1] + 0.5 * step)
+    wheel, peak = at(gap.wheel), np.max(pressed.pressure, axis=0)
+    line_load = (ahead[1] - ahead[0]) * np.sum(pressed.pressure, axis=0)
+    half_length = np.divide(2.0 * line_load, np.pi * peak, out=np.zeros(len(peak)), where=peak > 0.0)
+    edge, radius = np.interp(at(gap.wheel, sides), side.u, side.length), side.radius - np.interp(wheel, side.u, side.z)
+    return Strips(edge, line_load, peak, half_length, at(gap.angle), radius, wheel, at(gap.rail), at(gap.height), pressed.approach)
 
 
 def rows(patch: Strips, count: int) -> Rows:
-    """The patch in `count` rows. Each has the same part of the integral of the root of the load per width, so that rows move smoothly
-    with the patch, are wider where it carries less, and go over one by one from a place of contact that fades to another one that grows.
-    A row on its way has a part of both, and its middle between them."""
+    """The patch in `count` rows, each with the same part of the integral of the squared largest pressure, which is that of the load on
+    Hertz's ellipse. So rows move smoothly with the patch, are narrow where the pressure is high, and go over one by one from a place of
+    contact that fades to another one that grows. A row on its way has a part of both, and its middle between them. Loads, areas, and by
+    the loads the means of angle and radius are those of the patch."""
     width = np.diff(patch.edge)
-    measure = np.concatenate([[0.0], np.cumsum(np.sqrt(patch.line_load) * width)])
+    measure = np.append(0.0, np.cumsum(patch.peak**2 * width))
     cuts = np.linspace(0.0, measure[-1], count + 1)
-    # Overlaps of rows with strips, as widths: a strip is cut in proportion to the measure in it.
+    # Widths of strips in rows, and middles of these parts: strips are cut in proportion to their measure.
     low, high = np.maximum(measure[:-1], cuts[:-1, None]), np.minimum(measure[1:], cuts[1:, None])
-    share = np.maximum(high - low, 0.0) / np.where(np.diff(measure) > 0.0, np.diff(measure), np.inf)
-    parts = share * width
-    total = np.sum(parts, axis=1)
-    before = (np.maximum(low - measure[:-1], 0.0) + np.maximum(high - measure[:-1], 0.0)) / np.where(np.diff(measure) > 0.0, np.diff(measure), np.inf)
-    middle = patch.edge[:-1] + 0.5 * np.where(share > 0.0, before, 0.0) * width
-    loads = parts * patch.line_load
-    load = np.sum(loads, axis=1)
-    by_load = lambda values: np.sum(loads * values, axis=1) / load
-    line_load = load / total
-    # A half ellipse of the line load P and the pressure p has the half-length 2 P/(pi p); pressures of a row count by its loads.
-    half_length = 2.0 * line_load / (np.pi * np.sum(parts * patch.peak, axis=1) / total)
-    position = np.sum(parts * middle, axis=1) / total
-    return Rows(position, half_length, load / np.sum(load), total, by_load(patch.angle), by_load(patch.radius), by_load(patch.lateral))
+    scale = np.divide(width, np.diff(measure), out=np.zeros(len(width)), where=patch.peak > 0.0)
+    part, middle = np.maximum(high - low, 0.0) * scale, patch.edge[:-1] + (0.5 * (low + high) - measure[:-1]) * scale
+    wide, load = np.sum(part, axis=1), part @ patch.line_load
+    by_load = lambda values: part @ (patch.line_load * values) / load
+    position, half_length = np.sum(part * middle, axis=1) / wide, part @ patch.half_length / wide
+    return Rows(position, half_length, load / np.sum(load), wide, by_load(patch.angle), by_load(patch.radius), by_load(patch.lateral))

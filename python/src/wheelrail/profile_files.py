@@ -22,6 +22,7 @@ WIDE = {"wheel": (0.06, 0.2), "rail": (0.03, 0.2)}  # m, widths of the two
 UNITS = {"metres": 1.0, "millimetres": 1e-3, "inches": 0.0254}
 FLANGE, HEAD = 0.015, 0.004  # m, by which a flange reaches below a tread at least, and the sides of a head below its top
 CLOSE = 1e-7  # m, nearer points count as one
+AWAY = 0.008  # slope, from which on a head leans
 STEEP = 1.7  # slope, from which on a profile may turn back: a side of a rail, the back of a flange
 TAPING = 0.07  # m, from the back of a flange to the taping circle
 ENTRY = re.compile(r"([\w.]+)\s*=\s*(.*)")
@@ -197,10 +198,24 @@ def lean(profile: Profile, depth: float = 0.0141) -> float:
     return float((high - low) / (2.0 * half))
 
 
-def turned(profile: Profile, inclination: float) -> Profile:
-    """A rail turned to the middle of the track by an inclination [1], such as 1/40."""
+def inclined(profile: Profile, inclination: float, path: str | Path = "") -> Profile:
+    """A rail turned to the middle of the track by an inclination [1] such as 1/40; one that leans the other way then is refused."""
     cosine = 1.0 / np.hypot(1.0, inclination)
     sine = cosine * inclination
     u, z = cosine * profile.u - sine * profile.z, sine * profile.u + cosine * profile.z
     part = _one_way(u)
-    return Profile(u[part], z[part] - np.max(z), profile.words)
+    made = Profile(u[part], z[part] - np.max(z), profile.words)
+    lean = _lean(made)
+    if lean < -AWAY:
+        advice = "exchange the signs of its positions, which go to the field side, or give --inclination"
+        raise BadFile(f"{path}: the rail is mirrored: its head leans away from the track by 1:{-1.0 / lean:.0f}; {advice}")
+    leans = f"leans to the track by about 1:{1.0 / lean:.0f}" if lean > AWAY else "upright; --inclination 1:40 would turn it"
+    return made._replace(words=f"{made.words}; {leans}")
+
+
+def _lean(profile, depth=0.0141):
+    """Slope of a rail's head between places 3/4 of the way to its sides at a depth [m], positive if it leans to the track."""
+    above = profile.u[profile.z > -depth]
+    middle, half = 0.5 * (above[0] + above[-1]), 0.375 * (above[-1] - above[0])
+    low, high = np.interp([middle - half, middle + half], profile.u, profile.z)
+    return float((high - low) / (2.0 * half))
