@@ -16,7 +16,12 @@ from .smooth import Spline, between
 
 STEP = 2e-5  # m, between places of a profile
 BELOW_TOP = 0.014  # m, at which the gauge is measured (EN 13848-1)
+CLOSE = 1e-9  # m, and share of an energy: motions that just fit
 REACH = 0.045  # m, to either side of the place of contact, in which the gap is looked at
+
+
+class EndOfProfile(ValueError):
+    """A wheel beside its rail, or a patch that reaches over the end of a profile."""
 
 
 class Pose(NamedTuple):
@@ -83,20 +88,17 @@ class Side:
         """Least height of the wheel over the rail [m], the number of its point, and the locus above the rail."""
         locus = self.locus(pose)
         above = np.flatnonzero((locus[1] > self.rail[0]) & (locus[1] < self.rail[-1]))
+        if not len(above):
+            raise EndOfProfile("the wheel lies beside the rail")
         locus = tuple(values[above] for values in locus)
         height = locus[2] - np.interp(locus[1], self.rail, self.rail_z)
         least = int(np.argmin(height))
         return float(height[least]), least, locus
 
     def lowest(self, pose: Pose) -> tuple[float, float]:
-        """Least height of the wheel over the rail, and its radius there, both smooth in the pose [m]."""
+        """Least height of the wheel over the rail, and its radius there [m]."""
         height, least, locus = self.over(pose)
-        near = slice(max(least - 1, 0), least + 2)
-        h = locus[2][near] - np.interp(locus[1][near], self.rail, self.rail_z)
-        bend = h[0] - 2.0 * h[1] + h[2] if len(h) == 3 else 0.0
-        move = float(np.clip(0.5 * (h[0] - h[2]) / bend, -1.0, 1.0)) if bend > 0.0 else 0.0
-        height -= 0.25 * (h[0] - h[2]) * move if bend > 0.0 else 0.0
-        return height, self.radius - float(np.interp(self.u[locus[4][least]] + move * STEP, self.u, self.z))
+        return height, self.radius - float(self.z[locus[4][least]])
 
     def gap(self, pose: Pose) -> Gap:
         """The gap of the wheel that is lowered until it touches."""
@@ -120,9 +122,8 @@ class Track:
 
     def __init__(self, wheel: Profile, rail: Profile, gauge: float = 1.435, radius: float = 0.46, half_spacing: float = 0.75) -> None:
         inside = int(np.argmax(rail.z > -BELOW_TOP))
-        top = int(np.argmax(rail.z))
-        face = np.interp(-BELOW_TOP, rail.z[inside - 1 : inside + 1], rail.u[inside - 1 : inside + 1]) if inside else rail.u[0]
-        face = min(face, np.min(rail.u[inside:top + 1]))
+        near = slice(max(inside - 1, 0), inside + 1)
+        face = np.interp(-BELOW_TOP, rail.z[near], rail.u[near])
         self.side = Side(wheel, rail, radius, half_spacing, 0.5 * gauge - float(face))
 
     def roll(self, shift: float, yaw: float = 0.0) -> float:
@@ -171,7 +172,7 @@ def conicity(
     for amplitude in amplitudes:
         rise = lambda first: np.interp(first + 2.0 * amplitude, y, energy) - np.interp(first, y, energy)
         low, high = max(y[0], bottom - 2.0 * amplitude), min(bottom, y[-1] - 2.0 * amplitude)
-        if high < low or rise(low) > 0.0 or rise(high) < 0.0:
+        if high < low - CLOSE or rise(low) > CLOSE * np.ptp(energy) or rise(high) < -CLOSE * np.ptp(energy):
             found.append(np.nan)
             continue
         for _ in range(60):

@@ -6,20 +6,17 @@ of the rail, and the gap is normal to it: two places of contact with two angles 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
-from .contact_geometry import Gap, Pose, Side
+from .contact_geometry import EndOfProfile, Gap, Pose, Side, Track, conicity
 from .half_space import Pressed, Tiles
 from .smooth import between
 
-COARSE, FINE = (24, 96), (49, 160)  # tiles along the track and across
+COARSE, FINE = (24, 96), (48, 160)  # tiles along the track and across
 MARGIN = 1.12  # times the approach: gaps up to there are looked at, a second place included
-
-
-class EndOfProfile(ValueError):
-    """A patch that reaches over the end of a profile."""
 
 
 class Strips(NamedTuple):
@@ -75,7 +72,7 @@ def _part(gap, depth):
     """First and last place where surfaces lie nearer than `depth` [m] in the direction of approach."""
     found = np.flatnonzero(gap.height < depth * np.cos(gap.angle))
     if found[0] == 0 or found[-1] == len(gap.height) - 1:
-        raise EndOfProfile
+        raise EndOfProfile("the patch reaches the end of a profile")
     return found[0], found[-1]
 
 
@@ -118,3 +115,42 @@ def rows(patch: Strips, count: int) -> Rows:
     by_load = lambda values: part @ (patch.line_load * values) / load
     position, half_length = np.sum(part * middle, axis=1) / wide, part @ patch.half_length / wide
     return Rows(position, half_length, load / np.sum(load), wide, by_load(patch.angle), by_load(patch.radius), by_load(patch.lateral))
+
+
+class Over(NamedTuple):
+    """Patches of the right wheel over the shift."""
+
+    shifts: np.ndarray  # m
+    patches: list[Strips]
+    rigid: np.ndarray  # radius of the wheel where rigid bodies touch, with roll [m]
+
+    @property
+    def radius(self) -> np.ndarray:
+        """Radius at the centre of load [m]."""
+        return np.array([patch.mean(patch.radius) for patch in self.patches])
+
+
+def over(track: Track, shifts: np.ndarray, load: float, modulus: float, yaw: float = 0.0, tell: Callable[[float], None] | None = None) -> Over:
+    """Patches at shifts [m] under a load [N], `modulus` [Pa] as in `half_space.Tiles`; `yaw` [rad/m] turns the wheelset with the shift.
+    `tell` is called after each."""
+    patches, rigid = [], []
+    for shift in shifts:
+        try:
+            pose = track.pose(shift, yaw * shift)
+            patches.append(strips(track.side, pose, load, modulus))
+        except EndOfProfile as error:
+            raise EndOfProfile(f"at {1e3 * shift:g} mm {error}") from None
+        rigid.append(track.side.lowest(pose)[1])
+        if tell:
+            tell(shift)
+    return Over(np.asarray(shifts), patches, np.array(rigid))
+
+
+def conicities(found: Over, track: Track, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Equivalent conicities [1] at amplitudes [m] of rigid wheels without roll (EN 15302), and of the centres of load."""
+    side, end = track.side, min(-found.shifts[0], found.shifts[-1])
+    y = np.linspace(-end - 2e-3, end + 2e-3, 401)
+    rigid = conicity(y, track.rigid_difference(y), amplitudes, side.radius, side.half_spacing)
+    shifts = found.shifts[np.abs(found.shifts) <= end + 1e-9]
+    radius = np.interp(shifts, found.shifts, found.radius) - np.interp(-shifts, found.shifts, found.radius)
+    return rigid, conicity(shifts, radius, amplitudes, side.radius, side.half_spacing)

@@ -26,7 +26,7 @@ class Tiles:
 
     def __init__(self, shape: tuple[int, int], step: tuple[float, float], modulus: float) -> None:
         self.shape, self.step = shape, step
-        self.padded = tuple(_good(2 * count) for count in shape)
+        self.padded = tuple(2 * count for count in shape)
         corners = [(np.fft.fftfreq(count, 1.0 / count)[:, None] + [-0.5, 0.5]) * size for count, size in zip(self.padded, step)]
         signs = [1, -1, -1, 1]
         x, y = ([part[:, k] for k in (1, 0)] for part in corners)
@@ -82,18 +82,6 @@ class Tiles:
                 pressure = np.where(late, -length * open_, pressure)
             pressure *= force / (area * np.sum(pressure * lean))
         return pressure, approach
-
-
-def _good(count):
-    """A number from `count` on of which transforms are fast."""
-    while True:
-        rest = count
-        for factor in (2, 3, 5):
-            while rest % factor == 0:
-                rest //= factor
-        if rest == 1:
-            return count
-        count += 1
 
 
 def _corner(x, y):

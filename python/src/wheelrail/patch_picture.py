@@ -6,8 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .contact_patch import rows
-from .patch_table import Over
+from .contact_patch import Over, rows
 from .plots import COLOURS, GREY, WIDTH, save, subplots
 
 SHOWN = 3  # patches in detail

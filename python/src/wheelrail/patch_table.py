@@ -8,13 +8,13 @@ import time
 from argparse import ArgumentTypeError, Namespace
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from . import profile_files
-from .contact_geometry import Track, conicity
-from .contact_patch import EndOfProfile, Strips, rows, strips
+from .contact_geometry import EndOfProfile, Track
+from .contact_patch import Over, conicities, over, rows
 from .files import BadFile
 from .output import fresh, write_rows
 from .progress import Progress
@@ -30,6 +30,7 @@ COLUMNS = (
     ("lateral", "m", "lateral distance of the row's centre of load from the taping circle, to the right positive"),
 )  # fmt: skip
 MOST_SHIFTS, MOST_ROWS = 1000, 13
+WIDEST = 50.0  # mm, of shifts
 AMPLITUDES = 1e-3 * np.arange(1, 11)  # m, of which the conicity is told
 # Options with a number: name, default, range, factor to SI, and words.
 NUMBERS = (
@@ -43,46 +44,6 @@ NUMBERS = (
 )
 
 
-class Over(NamedTuple):
-    """Patches of the right wheel over the shift."""
-
-    shifts: np.ndarray  # m
-    patches: list[Strips]
-    rigid: np.ndarray  # radius of the wheel where rigid bodies touch, with roll [m]
-
-    @property
-    def radius(self) -> np.ndarray:
-        """Radius at the centre of load [m]."""
-        return np.array([patch.mean(patch.radius) for patch in self.patches])
-
-
-def over(track: Track, shifts: np.ndarray, load: float, modulus: float, yaw: float = 0.0, tell: Any = None) -> Over:
-    """Patches at shifts [m] under a load [N], `modulus` [Pa] as in `half_space.Tiles`; `yaw` [rad/m] turns the wheelset with the shift.
-    `tell` is called after each."""
-    patches, rigid = [], []
-    for shift in shifts:
-        pose = track.pose(shift, yaw * shift)
-        try:
-            patches.append(strips(track.side, pose, load, modulus))
-        except (EndOfProfile, IndexError):
-            advice = "take smaller ones, or give profiles that reach farther"
-            raise BadFile(f"--shift: at {1e3 * shift:g} mm the patch reaches the end of a profile; {advice}") from None
-        rigid.append(track.side.lowest(pose)[1])
-        if tell:
-            tell(shift)
-    return Over(np.asarray(shifts), patches, np.array(rigid))
-
-
-def conicities(found: Over, track: Track, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Equivalent conicities [1] at amplitudes [m] of rigid wheels without roll (EN 15302), and of the centres of load."""
-    side, end = track.side, min(-found.shifts[0], found.shifts[-1])
-    y = np.linspace(-end - 2e-3, end + 2e-3, 401)
-    rigid = conicity(y, track.rigid_difference(y), amplitudes, side.radius, side.half_spacing)
-    shifts = found.shifts[np.abs(found.shifts) <= end + 1e-9]
-    radius = np.interp(shifts, found.shifts, found.radius) - np.interp(-shifts, found.shifts, found.radius)
-    return rigid, conicity(shifts, radius, amplitudes, side.radius, side.half_spacing)
-
-
 def write(path: Path, found: Over, count: int, words: str) -> None:
     """Writes the table with `count` rows for each shift, `words` in a comment above it; units of its columns beside it."""
     with fresh(path) as new, open(new, "w", encoding="utf-8") as file:
@@ -94,16 +55,21 @@ def write(path: Path, found: Over, count: int, words: str) -> None:
 
 
 def shifts_of(text: str) -> np.ndarray:
-    """Shifts [m] of a text such as -7:7:0.1, the first one, the last one and the step in millimetres, or of a single one."""
+    """Shifts [m] of a text in millimetres: a single one, FIRST:LAST:STEP, or several of these behind commas, such as -7:6:0.1,6.02:6.4:0.02."""
+    found = []
     try:
-        first, *rest = (float(part) for part in text.split(":"))
-        last, step = rest or (first, 1.0)
-        count = round((last - first) / step) + 1
-        if not (step > 0.0 and 1 <= count <= MOST_SHIFTS and abs(first) <= 50.0 and abs(last) <= 50.0):
-            raise ValueError
-    except (ValueError, OverflowError):
-        raise ArgumentTypeError(f"{text!r} is no shift [mm] or FIRST:LAST:STEP with up to {MOST_SHIFTS} shifts within 50 mm") from None
-    return np.round(1e-3 * (first + step * np.arange(count)), 12)
+        for part in text.split(","):
+            first, *rest = (float(number) for number in part.split(":"))
+            last, step = rest or (first, 1.0)
+            if not (step > 0.0 and abs(first) <= WIDEST and abs(last) <= WIDEST and (last - first) / step < MOST_SHIFTS):
+                raise ValueError
+            found += [first + step * k for k in range(round((last - first) / step) + 1)]
+    except ValueError:
+        found = []
+    if not 1 <= len(found) <= MOST_SHIFTS or np.any(np.diff(found) <= 0.0):
+        advice = f"such as 3, -7:7:0.1 (FIRST:LAST:STEP) or both, ascending behind commas; up to {MOST_SHIFTS} within {WIDEST:g} mm"
+        raise ArgumentTypeError(f"{text!r} says no shifts [mm]; {advice}")
+    return np.round(1e-3 * np.array(found), 12)
 
 
 def inclination_of(text: str) -> float:
@@ -123,7 +89,7 @@ def add_command(commands: Any) -> None:
     command._negative_number_matcher = re.compile(r"-\.?\d")  # shifts begin with a sign
     command.add_argument("wheel", type=Path, help="profile: SIMPACK, MiniProf or two columns")
     command.add_argument("rail", type=Path, help="profile, of two columns with positions to the field side")
-    command.add_argument("--shift", type=shifts_of, default="-7:7:0.2", help="one, or FIRST:LAST:STEP, to the right [mm], default %(default)s")
+    command.add_argument("--shift", type=shifts_of, default="-7:7:0.2", help="one, FIRST:LAST:STEP, or several, to the right [mm], default %(default)s")
     command.add_argument("--inclination", type=inclination_of, default=0.0, help="by which the rail is turned besides, such as 1:40, default 0")
     for name, default, _, _, about in NUMBERS:
         command.add_argument(f"--{name}", type=type(default), default=default, help=f"{about}, default %(default)g")
@@ -144,13 +110,17 @@ def run(options: Namespace) -> None:
     print(f"{wheel.words}\n{rail.words}", flush=True)
     began, track = time.perf_counter(), Track(wheel, rail, options.gauge, options.radius, 0.5 * options.spacing)
     modulus = options.youngs_modulus / (2.0 * (1.0 - options.poissons_ratio**2))
-    with Progress(len(options.shift), "patches") as bar:
-        found = over(track, options.shift, options.load, modulus, tell=lambda shift: bar.advance(1, f"{1e3 * shift:g} mm"))
+    try:
+        with Progress(len(options.shift), "patches") as bar:
+            found = over(track, options.shift, options.load, modulus, tell=lambda shift: bar.advance(1, f"{1e3 * shift:g} mm"))
+    except EndOfProfile as error:
+        raise BadFile(f"--shift: {error}; take smaller ones, or give profiles that reach farther") from None
     print(f"{len(found.shifts)} shifts in {time.perf_counter() - began:.1f} s; largest pressure {1e-6 * max(np.max(p.peak) for p in found.patches):.0f} MPa")
     amplitudes = AMPLITUDES[AMPLITUDES <= min(-found.shifts[0], found.shifts[-1])]
     known = conicities(found, track, amplitudes) if len(amplitudes) else None
     for name, values in zip(("rigid", "of the centre of load"), known or ()):
-        print(f"equivalent conicity, {name}: " + ", ".join(f"{v:.3f} ({1e3 * a:g} mm)" for a, v in zip(amplitudes, values) if np.isfinite(v)))
+        told = ", ".join(f"{value:.3f} ({1e3 * a:g} mm)" for a, value in zip(amplitudes, values) if np.isfinite(value))
+        print(f"equivalent conicity, {name}: {told or 'none at these shifts'}")
     words = f"{options.wheel.name} on {options.rail.name}, gauge {options.gauge:g} m, contact.rows_load = {options.load:g} N, wheel.radius = {options.radius:g} m"
     write(options.out, found, options.rows, words)
     draw(options.out.with_suffix(".png"), found, options.rows, amplitudes, known, words)

@@ -9,7 +9,6 @@ the side of a flange are found by the shape, and told. A rail of theirs has posi
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -37,49 +36,51 @@ class Profile(NamedTuple):
 
 
 def read(path: str | Path, kind: str) -> Profile:
-    """The profile of a `kind`, "wheel" or "rail"; what a file has besides is refused with its line and what to do."""
-    lines = list(enumerate(text_of(path).split("\n"), start=1))
-    simpack = any(text.strip().lower().startswith("point.begin") for _, text in lines)
+    """The profile of a `kind`, "wheel" or "rail"; what is wrong in a file is refused with its line and what to do."""
+    text = text_of(path)
+    simpack = re.search(r"^\s*point\.begin", text, re.I | re.M) is not None
     if not simpack and Path(path).suffix.lower() in (".prw", ".prr"):
-        raise BadFile(f"{path}:{len(lines)}: no line point.begin, behind which a file of SIMPACK has its points; export the profile anew")
-    keys, points = _simpack(path, lines) if simpack else _columns(path, lines)
+        raise BadFile(f"{path}:1: no line point.begin, behind which a file of SIMPACK has its points; export the profile anew")
+    keys, points, lines = _parts(path, text, simpack)
     if len(points) < FEWEST:
-        last = points[-1][0] if points else len(lines)
-        raise BadFile(f"{path}:{last}: {len(points)} points; a profile has {FEWEST} or more: export it with all of them")
-    numbers = np.array([point for _, point in points])
+        raise BadFile(f"{path}:{lines[-1] if lines else 1}: {len(points)} points; a profile has {FEWEST} or more: export it with all of them")
     if simpack:
-        numbers *= [-1.0 if _flag(path, keys, "mirror.y") else 1.0, 1.0 if _flag(path, keys, "mirror.z") else -1.0]
-        unit, told = 1.0 / _positive(path, keys, "units.len.f", 1e3), f"units.len.f = {keys.get('units.len.f', (0, '1000'))[1]}"
+        mirrors = [1.0 if _key(path, keys, name, "0") > 0.0 else -1.0 for name in ("mirror.y", "mirror.z")]
+        units = _key(path, keys, "units.len.f", "1000")
+        if not units > 0.0:
+            raise BadFile(f"{path}:{keys['units.len.f'][0]}: units.len.f = {units:g} is not above 0; write 1000 for millimetres")
+        unit, told = np.array([-mirrors[0], mirrors[1]]) / units, f"{units:g} units per metre, heights downwards"
     else:
-        unit, told = _unit(path, kind, numbers[:, 0])
-    return _placed(path, kind, _ascending(path, [line for line, _ in points], unit * numbers), told, simpack)
+        width, (low, high) = np.ptp(np.array(points)[:, 0]), WIDE[kind]
+        told = next((name for name in ("millimetres", "metres") if low <= UNITS[name] * width <= high), None)
+        if not told:
+            raise BadFile(f"{path}: {_too_wide(kind, width, simpack)}")
+        unit = UNITS[told]
+    return _placed(path, kind, _ascending(path, lines, unit * np.array(points)), told, simpack)
 
 
-def _simpack(path, lines):
-    """Keys with lines and values, and points with lines, of a file of SIMPACK."""
-    keys, points, inside = {}, [], False
-    for line, text in lines:
-        text = re.split("[!%]", text)[0].strip()
-        if text.lower().startswith("point.begin"):
-            inside = True
-        elif text.lower().startswith("point.end"):
-            inside = False
-        elif inside and text:
-            points.append((line, _point(path, line, re.sub(r"(?<=\d|\.)[dD](?=[-+\d])", "E", text))))
-        elif entry := ENTRY.match(text):
-            keys[entry[1]] = line, entry[2].strip(" '\"")
-    return keys, points
-
-
-def _columns(path, lines):
-    """Points with lines of a file of MiniProf, whose head has lines with `=`, or of two columns below at most one line of names."""
-    points = []
-    for line, text in lines:
+def _parts(path, text, simpack):
+    """Keys with lines and values, points, and their lines: of a file of SIMPACK; of MiniProf, which has lines with `=` before its points;
+    or of two columns below at most one line of names."""
+    keys, points, lines, inside = {}, [], [], not simpack
+    for line, text in enumerate(text.split("\n"), start=1):
         text = re.split("[#!%]", text)[0].strip()
-        if not text or not points and (ENTRY.match(text) or not re.match(r"[-+.\d]|nan|inf", text, re.I)):
-            continue
-        points.append((line, _point(path, line, text)))
-    return {}, points
+        if simpack and re.match(r"point\.(begin|end)", text, re.I):
+            inside = text.lower().startswith("point.begin")
+        elif entry := ENTRY.match(text) if not (inside and simpack) else None:
+            keys[entry[1]] = line, entry[2].strip(" '\"")
+        elif inside and text and (points or simpack or re.match(r"[-+.\d]|nan|inf", text, re.I)):
+            points.append(_point(path, line, re.sub(r"(?<=[\d.])[dD](?=[-+\d])", "E", text)))
+            lines.append(line)
+    return keys, points, lines
+
+
+def _key(path, keys, name, default):
+    """The number of a key of SIMPACK."""
+    line, text = keys.get(name, (0, default))
+    if not NUMBER.fullmatch(text):
+        raise BadFile(f"{path}:{line}: {name} = {text!r} is no number; write {default} unless you mean another one")
+    return float(text)
 
 
 def _point(path, line, text):
@@ -93,37 +94,13 @@ def _point(path, line, text):
     return float(cells[0]), float(cells[1])
 
 
-def _flag(path, keys, name):
-    """Whether a key of SIMPACK is set."""
-    line, text = keys.get(name, (0, "0"))
-    if not NUMBER.fullmatch(text):
-        raise BadFile(f"{path}:{line}: {name} = {text!r} is neither 0 nor 1")
-    return float(text) > 0.0
-
-
-def _positive(path, keys, name, default):
-    """A number of SIMPACK above 0."""
-    line, text = keys.get(name, (0, str(default)))
-    if not NUMBER.fullmatch(text) or float(text) <= 0.0:
-        raise BadFile(f"{path}:{line}: {name} = {text!r} is no number above 0; write 1000 for millimetres")
-    return float(text)
-
-
-def _unit(path, kind, positions):
-    """Metres per unit, found by the width of a profile, and words on it."""
-    width, (low, high) = np.ptp(positions), WIDE[kind]
-    for name in ("millimetres", "metres"):
-        if low <= UNITS[name] * width <= high:
-            return UNITS[name], name
-    raise BadFile(f"{path}: {_too_wide(kind, width)}")
-
-
-def _too_wide(kind, width):
-    """Words on the width of a profile in a unit that is none of ours, and what to do."""
+def _too_wide(kind, width, simpack):
+    """Words on a width in millimetres that no profile has, and what to do."""
     low, high = WIDE[kind]
     meant = next((name for name, size in UNITS.items() if low <= size * width <= high), None)
-    advice = f"it seems to be in {meant}: write it in millimetres" if meant else "write it in millimetres or metres"
-    return f"the {kind} is {width:g} wide, which is outside {1e3 * low:g} to {1e3 * high:g} mm; {advice}"
+    advice = f"set units.len.f to {1.0 / UNITS[meant or 'millimetres']:.6g}" if simpack else "write them in millimetres"
+    seem = f"its numbers seem to be {meant}: " if meant else "if its numbers are no millimetres, "
+    return f"the {kind} is {width:g} mm wide, outside {1e3 * low:g} to {1e3 * high:g} mm; {seem}{advice}"
 
 
 def _ascending(path, lines, points):
@@ -154,7 +131,7 @@ def _one_way(u):
 def _placed(path, kind, points, told, simpack):
     """A profile in its place: checked for size, orientation and kind."""
     if not WIDE[kind][0] <= np.ptp(points[:, 0]) <= WIDE[kind][1]:
-        raise BadFile(f"{path}: {_too_wide(kind, np.ptp(points[:, 0]))}" + (", and set units.len.f to the units per metre" if simpack else ""))
+        raise BadFile(f"{path}: {_too_wide(kind, 1e3 * np.ptp(points[:, 0]), simpack)}")
     sign, inner, outer = _shape(points)
     other = {"wheel": "rail", "rail": "wheel"}[kind]
     if (kind == "rail") != (max(inner, outer) < -HEAD):
@@ -166,7 +143,7 @@ def _placed(path, kind, points, told, simpack):
         wrong, key = ("upside down", "mirror.z") if sign < 0.0 else ("mirrored, its flange on the field side", "mirror.y")
         raise BadFile(f"{path}: the {kind} is {wrong}; change {key} in the file from 0 to 1, or from 1 to 0")
     points = (points * [-1.0 if mirrored else 1.0, sign])[:: -1 if mirrored else 1]
-    told = [told, "heights downwards" if simpack or sign < 0.0 else "heights upwards", *(["flange at positive positions: mirrored"] if mirrored else [])]
+    told = [told, *([] if simpack else ["heights downwards: turned" if sign < 0.0 else "heights upwards"]), *(["flange at positive positions: mirrored"] if mirrored else [])]
     return _origin(kind, *points.T, told)
 
 
@@ -193,7 +170,7 @@ def _origin(kind, u, z, told):
 def lean(profile: Profile, depth: float = 0.0141) -> float:
     """How a rail leans [1]: the slope of its head between places 3/4 of the way to its sides at a depth; to the middle of the track positive."""
     above = profile.u[profile.z > -depth]
-    middle, half = 0.5 * (above[0] + above[-1]), 0.375 * (above[-1] - above[0])
+    middle, half = 0.5 * (above[0] + above[-1]), 0.15 * (above[-1] - above[0])
     low, high = np.interp([middle - half, middle + half], profile.u, profile.z)
     return float((high - low) / (2.0 * half))
 
@@ -214,8 +191,8 @@ def inclined(profile: Profile, inclination: float, path: str | Path = "") -> Pro
 
 
 def _lean(profile, depth=0.0141):
-    """Slope of a rail's head between places 3/4 of the way to its sides at a depth [m], positive if it leans to the track."""
+    """Slope of the top of a rail between places about the middle of its sides at a depth [m], positive if it leans to the track."""
     above = profile.u[profile.z > -depth]
-    middle, half = 0.5 * (above[0] + above[-1]), 0.375 * (above[-1] - above[0])
+    middle, half = 0.5 * (above[0] + above[-1]), 0.15 * (above[-1] - above[0])
     low, high = np.interp([middle - half, middle + half], profile.u, profile.z)
     return float((high - low) / (2.0 * half))
