@@ -323,3 +323,13 @@ def test_the_command_refuses_in_one_line(options, words, monkeypatch, tmp_path, 
     said = capsys.readouterr().err.strip().splitlines()[-1]
     assert ended.value.code == 2 and all(word in said for word in words), said
     assert not (tmp_path / "p.csv").exists()
+
+
+def test_nine_rows_keep_the_largest_pressure_at_every_shift(track):
+    kept = []
+    for shift in [*np.arange(-0.4e-3, 0.41e-3, 1e-4), *np.arange(4.3e-3, 5.5e-3, 1e-4)]:
+        patch = contact_patch.strips(track.side, track.pose(shift), 1e5, STEEL)
+        rows = contact_patch.rows(patch, 9)
+        kept.append(np.max(2e5 * rows.load_share / (np.pi * rows.half_length * rows.width)) / patch.peak.max())
+    print(f"largest pressure of nine rows over that of the patch: {min(kept):.3f} to {max(kept):.3f}")
+    assert min(kept) > 0.94 and max(kept) <= 1.0

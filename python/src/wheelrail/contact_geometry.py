@@ -102,12 +102,12 @@ class Side:
 
     def gap(self, pose: Pose) -> Gap:
         """The gap of the wheel that is lowered until it touches."""
-        lowest, least, (ahead, u, z, curvature, use) = self.over(pose)
-        rising = np.flatnonzero(u > np.maximum.accumulate(np.concatenate([[-1.0], u[:-1]])))
-        ahead, u, z, curvature, use = (values[rising] for values in (ahead, u, z - lowest, curvature, use))
+        lowest, least, locus = self.over(pose)
+        touch, rising = locus[1][least], np.flatnonzero(locus[1] > np.maximum.accumulate(np.append(-1.0, locus[1][:-1])))
+        ahead, u, z, curvature, use = (values[rising] for values in locus)
+        z = z - lowest
         near = np.flatnonzero((self.rail > u[0]) & (self.rail < u[-1]))
-        middle = int(np.argmin(np.abs(self.rail[near] - self.over(pose)[2][1][least])))
-        near = near[np.abs(self.along[near] - self.along[near[middle]]) < REACH]
+        near = near[np.abs(self.along[near] - np.interp(touch, self.rail, self.along)) < REACH]
         rail, rail_z, angle = self.rail[near], self.rail_z[near], self.angle[near]
         height, at = np.zeros(len(near)), rail
         for _ in range(8):  # Newton: the wheel's slope is about that of the rail

@@ -100,12 +100,13 @@ def _strips(side, gap, ahead, along, pressed):
 
 
 def rows(patch: Strips, count: int) -> Rows:
-    """The patch in `count` rows, each with the same part of the integral of the squared largest pressure, which is that of the load on
-    Hertz's ellipse. So rows move smoothly with the patch, are narrow where the pressure is high, and go over one by one from a place of
-    contact that fades to another one that grows. A row on its way has a part of both, and its middle between them. Loads, areas, and by
-    the loads the means of angle and radius are those of the patch."""
-    width = np.diff(patch.edge)
-    measure = np.append(0.0, np.cumsum(patch.peak**2 * width))
+    """The patch in `count` rows, each with the same part of a measure: the integral of the squared largest pressure, which is that of the
+    load on Hertz's ellipse, and half as much of its changes, so that peaks keep rows of their own. So rows move smoothly with the patch,
+    and go over one by one from a place of contact that fades to another one that grows. A row on its way has a part of both, and its
+    middle between them. Loads, areas, and by the loads the means of angle and radius are those of the patch."""
+    width, square = np.diff(patch.edge), patch.peak**2
+    change = np.where(square > 0.0, np.abs(np.gradient(square)), 0.0)
+    measure = np.append(0.0, np.cumsum(square * width / np.sum(square * width) + 0.5 * change / np.sum(change)))
     cuts = np.linspace(0.0, measure[-1], count + 1)
     # Widths of strips in rows, and middles of these parts: strips are cut in proportion to their measure.
     low, high = np.maximum(measure[:-1], cuts[:-1, None]), np.minimum(measure[1:], cuts[1:, None])
