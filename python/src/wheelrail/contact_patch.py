@@ -15,7 +15,7 @@ from .contact_geometry import EndOfProfile, Gap, Pose, Side, Track, conicity
 from .half_space import Pressed, Tiles
 from .smooth import between
 
-COARSE, FINE = (24, 96), (48, 160)  # tiles along the track and across
+COARSE, FINE = (24, 96), (48, 240)  # tiles along the track and across
 MARGIN = 1.12  # times the approach: gaps up to there are looked at, a second place included
 
 

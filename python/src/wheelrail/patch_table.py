@@ -105,6 +105,8 @@ def run(options: Namespace) -> None:
         if not low <= value <= high:
             raise BadFile(f"--{name} = {value:g} is outside {low:g} to {high:g}")
         setattr(options, name.replace("-", "_"), factor * value)
+    if options.out.suffix != ".csv":
+        raise BadFile(f"--out {options.out}: no name that ends with .csv, by which the FMU knows a file")
     wheel, rail = profile_files.read(options.wheel, "wheel"), profile_files.read(options.rail, "rail")
     rail = profile_files.inclined(rail, options.inclination, options.rail)
     print(f"{wheel.words}\n{rail.words}", flush=True)

@@ -38,18 +38,20 @@ class Profile(NamedTuple):
 def read(path: str | Path, kind: str) -> Profile:
     """The profile of a `kind`, "wheel" or "rail"; what is wrong in a file is refused with its line and what to do."""
     text = text_of(path)
-    simpack = re.search(r"^\s*point\.begin", text, re.I | re.M) is not None
+    begin = re.search(r"^[ \t]*point\.begin", text, re.I | re.M)
+    simpack, first = begin is not None, 1 + text.count("\n", 0, begin.start()) if begin else 1
     if not simpack and Path(path).suffix.lower() in (".prw", ".prr"):
         raise BadFile(f"{path}:1: no line point.begin, behind which a file of SIMPACK has its points; export the profile anew")
     keys, points, lines = _parts(path, text, simpack)
     if len(points) < FEWEST:
-        raise BadFile(f"{path}:{lines[-1] if lines else 1}: {len(points)} points; a profile has {FEWEST} or more: export it with all of them")
+        raise BadFile(f"{path}:{lines[-1] if lines else first}: {len(points)} points; a profile has {FEWEST} or more: export it with all of them")
     if simpack:
         mirrors = [1.0 if _key(path, keys, name, "0") > 0.0 else -1.0 for name in ("mirror.y", "mirror.z")]
         units = _key(path, keys, "units.len.f", "1000")
         if not units > 0.0:
             raise BadFile(f"{path}:{keys['units.len.f'][0]}: units.len.f = {units:g} is not above 0; write 1000 for millimetres")
-        unit, told = np.array([-mirrors[0], mirrors[1]]) / units, f"{units:g} units per metre, heights downwards"
+        unit = np.array([-mirrors[0], mirrors[1]]) / units
+        told = f"{units:g} units per metre, heights {'upwards' if mirrors[1] > 0.0 else 'downwards'}{', mirrored' if mirrors[0] > 0.0 else ''}"
     else:
         width, (low, high) = np.ptp(np.array(points)[:, 0]), WIDE[kind]
         told = next((name for name in ("millimetres", "metres") if low <= UNITS[name] * width <= high), None)
