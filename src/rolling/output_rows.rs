@@ -100,7 +100,7 @@ outputs! {
     326 contact_tread_slip_z: real "contact.tread_slip_z", in "m/s" as "mm/s", nominal 1e-2,
         "Lateral part of the mean slip velocity of the tread, to the right positive";
     327 contact_load_position: real "contact.load_position", in "m" as "mm", nominal 1e-3,
-        "Lateral position of the centre of load in the coordinate of contact.rows (of line.position), which holds for the whole run: \
+        "Lateral position of the centre of load in the coordinate of contact.rows (of line.position), which moves with wheelset.lateral alone: \
          drive.velocity, drive.lateral_velocity and the radius of rolling are those of this place, and contact.moment_y is about it; 0 on a \
          line and on an ellipse";
     257 rail_profile_height: real "rail.profile_height", in "m" as "mm", nominal 1e-5,
