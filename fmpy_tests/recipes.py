@@ -119,6 +119,13 @@ WHEEL = (
     Recipe("python -m wheelrail damage run.nc", says="hottest point of the tread"),
     Recipe("python -m wheelrail export run.nc", ("python -m wheelrail export run.nc", "python -m wheelrail export run.nc --out film"), "patch.pvd"),
     Recipe("python -m wheelrail steady --creepage 0:2e-3:5", ("python -m wheelrail steady", "python -m wheelrail steady --creepage 0:2e-3:5"), "contact.force_x"),
+    Recipe(
+        "cd try && python -m wheelrail patch examples/profiles/s1002.prw examples/profiles/60e1.prr --inclination 1:40 --shift -1:3:2",
+        (
+            "python -m wheelrail patch examples/profiles/s1002.prw examples/profiles/60e1.prr --inclination 1:40 --shift -1:3:2",
+            "python -m wheelrail patch examples/profiles/s1002.prw examples/profiles/60e1.prr --inclination 1:40", "python -m wheelrail patch",
+        ), "equivalent conicity",
+    ),  # fmt: skip
     Recipe("python -m wheelrail completion bash", says="complete"),
     Recipe("python -m wheelrail report run.csv --out page.html", (".venv/bin/python -m wheelrail report RUN [--out FILE.html]",), "page.html"),
 )

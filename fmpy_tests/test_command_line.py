@@ -21,6 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 TYPED = (
     "fmu", "runs", "records", "operating", "team", "values", "warn", "output", "tables", "signals", "surfaces", "rail_map", "vehicle",
     "wheelset", "train", "compare", "page", "completion", "grid", "damage", "paraview",
+    "profile_files", "contact_geometry", "half_space", "contact_patch", "patch_table", "patch_picture",
 )  # fmt: skip
 
 

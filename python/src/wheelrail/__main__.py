@@ -1,4 +1,4 @@
-"""Command line: `wheelrail` or `python -m wheelrail` with `train|sweep|ssp SCENARIO`, `steady`, `report|export RUN`,
+"""Command line: `wheelrail` or `python -m wheelrail` with `train|sweep|ssp SCENARIO`, `steady`, `patch WHEEL RAIL`, `report|export RUN`,
 `schema KIND`, `completion SHELL`; what results say: see `analysis`."""
 
 import json
@@ -10,7 +10,7 @@ import time
 from contextlib import ExitStack, redirect_stderr, redirect_stdout, suppress
 from pathlib import Path
 
-from . import __version__, analysis, completion, damage, operating, paraview
+from . import __version__, analysis, completion, damage, operating, paraview, patch_table
 from . import scenario as scenarios
 from .compare import Died
 from .controllers import ControllerFailed
@@ -29,7 +29,7 @@ from .wheelset import patches_of
 
 
 # Commands that need no scenario, by the modules that run them.
-ON_RECORDS = {"report": page, "steady": operating, "damage": damage, "export": paraview}
+ON_RECORDS = {"report": page, "steady": operating, "damage": damage, "export": paraview, "patch": patch_table}
 LEVELS = ("debug", "info", "warning")
 # Commands of the program in Rust, which is not part of this package, and options by which it knows those of the same name.
 OF_RUST = ("simulate", "describe", "pack")
@@ -62,7 +62,7 @@ def parser():
     ssp.add_argument("--stop", type=float, default=10.0, help="end of the default experiment [s], default %(default)g")
     schema = commands.add_parser("schema", help="JSON Schema of a kind of file")
     schema.add_argument("kind", choices=list(scenarios.SCHEMAS))
-    for others in (operating, analysis, page, damage, paraview, completion):
+    for others in (operating, analysis, page, damage, paraview, patch_table, completion):
         others.add_command(commands)
     for command in commands.choices.values():
         command.add_argument("--version", action="version", version=f"wheelrail {__version__}")

@@ -50,3 +50,13 @@ def _slopes(x, y):
     for k in range(len(middle) - 1, -1, -1):
         slopes[k + 1] = (right[k] - beside[k] * slopes[k + 2]) / middle[k]
     return slopes
+
+
+def between(at, x, y):
+    """Values `y` at ascending `x`, many of them, between which a curve is wanted at positions `at`: cubics with the slopes of differences."""
+    slopes = np.gradient(y, x)
+    k = np.clip(np.searchsorted(x, at) - 1, 0, len(x) - 2)
+    width = x[k + 1] - x[k]
+    t = (at - x[k]) / width
+    mean = (y[k + 1] - y[k]) / width
+    return y[k] + width * t * (mean + (1.0 - t) * ((1.0 - t) * (slopes[k] - mean) - t * (slopes[k + 1] - mean)))

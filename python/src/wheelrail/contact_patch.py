@@ -1,0 +1,157 @@
+"""Contact patch of a wheel that is pressed on a rail: strips along the rail with their loads, and the rows in which a table has them.
+
+The wheel comes down on the rail, and towards each place of it by the cosine of its angle. Lengths in the patch are those along the head
+of the rail, and the gap is normal to it: two places of contact with two angles are one patch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from .contact_geometry import EndOfProfile, Gap, Pose, Side, Track, conicity
+from .half_space import Pressed, Tiles
+from .smooth import between
+
+COARSE, FINE = (24, 96), (48, 240)  # tiles along the track and across
+MARGIN = 1.12  # times the approach: gaps up to there are looked at, a second place included
+
+
+class Strips(NamedTuple):
+    """A patch in strips of one width along the track, from the gauge side to the field side of a wheel."""
+
+    edge: np.ndarray  # positions of their sides: lengths along the wheel's profile from the taping circle, to the field side positive [m]
+    line_load: np.ndarray  # loads normal to the surface, per width [N/m]
+    peak: np.ndarray  # largest pressures [Pa]
+    half_length: np.ndarray  # of half ellipses of pressure with that load and pressure [m]
+    angle: np.ndarray  # of the contact, positive where it rises to the field side [rad]
+    radius: np.ndarray  # of the wheel there [m]
+    lateral: np.ndarray  # on the wheel from the taping circle [m]
+    rail: np.ndarray  # lateral position on the rail from its origin [m]
+    gap: np.ndarray  # before loading [m]
+    approach: float  # of wheel and rail, downwards [m]
+
+    def mean(self, values: np.ndarray) -> float:
+        """Mean of values of the strips by their loads."""
+        return float(np.average(values, weights=self.line_load * np.diff(self.edge)))
+
+
+class Rows(NamedTuple):
+    """A patch in few rows, from the gauge side to the field side of a wheel; lengths in metres, angles in radians."""
+
+    position: np.ndarray  # of the middle of each row, as the sides of strips
+    half_length: np.ndarray
+    load_share: np.ndarray
+    width: np.ndarray
+    angle: np.ndarray
+    radius: np.ndarray
+    lateral: np.ndarray
+
+
+def strips(side: Side, pose: Pose, load: float, modulus: float) -> Strips:
+    """Strips of the patch of one wheel under a load [N] normal to the surfaces; `modulus` [Pa] as in `Tiles`."""
+    gap = side.gap(pose)
+    curvature = max(float(gap.curvature[gap.touch]), 0.1)
+    reach = lambda depth: np.array([-1.0, 1.0]) * np.sqrt(2.0 * depth / curvature)
+    depth = 3.0 * (load / modulus) ** (2.0 / 3.0) * curvature ** (1.0 / 3.0)  # an ample guess of the approach
+    ahead, along, pressed = _pressed(gap, _part(gap, depth), reach(depth), COARSE, load, modulus)
+    while pressed.approach * MARGIN > depth:  # on the flange
+        depth = 1.5 * pressed.approach * MARGIN
+        ahead, along, pressed = _pressed(gap, _part(gap, depth), reach(depth), COARSE, load, modulus)
+    rows, columns = (np.flatnonzero(np.any(pressed.pressure > 0.0, axis=axis)) for axis in (1, 0))
+    size = ahead[1] - ahead[0]
+    part = np.searchsorted(gap.along, along[[columns[0], columns[-1]]] + (along[1] - along[0]) * np.array([-1.0, 1.0]))
+    part = max(part[0], 0), min(part[1], len(gap.along) - 1)
+    ahead, along, pressed = _pressed(gap, part, ahead[[rows[0], rows[-1]]] + [-size, size], FINE, load, modulus)
+    return _strips(side, gap, ahead, along, pressed)
+
+
+def _part(gap, depth):
+    """First and last place where surfaces lie nearer than `depth` [m] in the direction of approach."""
+    found = np.flatnonzero(gap.height < depth * np.cos(gap.angle))
+    if found[0] == 0 or found[-1] == len(gap.height) - 1:
+        raise EndOfProfile("the patch reaches the end of a profile")
+    return found[0], found[-1]
+
+
+def _pressed(gap: Gap, part, ends, count, load, modulus) -> tuple[np.ndarray, np.ndarray, Pressed]:
+    """Pressures on tiles over a part of the gap, between two ends along the track; middles of the tiles along the track and the head."""
+    begin = np.array([ends[0], gap.along[part[0]]])
+    step = (np.array([ends[1], gap.along[part[1]]]) - begin) / count
+    ahead, along = (first + size * (np.arange(number) + 0.5) for first, size, number in zip(begin, step, count))
+    at = lambda values: np.interp(along, gap.along, values)
+    away = ahead[:, None] - at(gap.ahead) + gap.ahead[gap.touch]
+    height = between(along, gap.along, gap.height) + 0.5 * at(gap.curvature) * away**2
+    return ahead, along, Tiles(count, step, modulus).press(height, np.cos(at(gap.angle)), load)
+
+
+def _strips(side, gap, ahead, along, pressed):
+    """Strips of the pressures on tiles."""
+    step = along[1] - along[0]
+    at = lambda values, along=along: np.interp(along, gap.along, values)
+    sides = np.append(along - 0.5 * step, along[-1] + 0.5 * step)
+    wheel, peak = at(gap.wheel), np.max(pressed.pressure, axis=0)
+    line_load = (ahead[1] - ahead[0]) * np.sum(pressed.pressure, axis=0)
+    half_length = np.divide(2.0 * line_load, np.pi * peak, out=np.zeros(len(peak)), where=peak > 0.0)
+    edge, radius = np.interp(at(gap.wheel, sides), side.u, side.length), side.radius - np.interp(wheel, side.u, side.z)
+    return Strips(edge, line_load, peak, half_length, at(gap.angle), radius, wheel, at(gap.rail), at(gap.height), pressed.approach)
+
+
+def rows(patch: Strips, count: int) -> Rows:
+    """The patch in `count` rows, each with the same part of a measure: the integral of the squared largest pressure, which is that of the
+    load on Hertz's ellipse, and half as much of its changes, so that peaks keep rows of their own. So rows move smoothly with the patch,
+    and go over one by one from a place of contact that fades to another one that grows. A row on its way has a part of both, and its
+    middle between them. Loads, areas, and by the loads the means of angle and radius are those of the patch."""
+    width, square = np.diff(patch.edge), patch.peak**2
+    change = np.where(square > 0.0, np.abs(np.gradient(square)), 0.0)
+    measure = np.append(0.0, np.cumsum(square * width / np.sum(square * width) + 0.5 * change / np.sum(change)))
+    cuts = np.linspace(0.0, measure[-1], count + 1)
+    # Widths of strips in rows, and middles of these parts: strips are cut in proportion to their measure.
+    low, high = np.maximum(measure[:-1], cuts[:-1, None]), np.minimum(measure[1:], cuts[1:, None])
+    scale = np.divide(width, np.diff(measure), out=np.zeros(len(width)), where=patch.peak > 0.0)
+    part, middle = np.maximum(high - low, 0.0) * scale, patch.edge[:-1] + (0.5 * (low + high) - measure[:-1]) * scale
+    wide, load = np.sum(part, axis=1), part @ patch.line_load
+    by_load = lambda values: part @ (patch.line_load * values) / load
+    position, half_length = np.sum(part * middle, axis=1) / wide, part @ patch.half_length / wide
+    return Rows(position, half_length, load / np.sum(load), wide, by_load(patch.angle), by_load(patch.radius), by_load(patch.lateral))
+
+
+class Over(NamedTuple):
+    """Patches of the right wheel over the shift."""
+
+    shifts: np.ndarray  # m
+    patches: list[Strips]
+    rigid: np.ndarray  # radius of the wheel where rigid bodies touch, with roll [m]
+
+    @property
+    def radius(self) -> np.ndarray:
+        """Radius at the centre of load [m]."""
+        return np.array([patch.mean(patch.radius) for patch in self.patches])
+
+
+def over(track: Track, shifts: np.ndarray, load: float, modulus: float, yaw: float = 0.0, tell: Callable[[float], None] | None = None) -> Over:
+    """Patches at shifts [m] under a load [N], `modulus` [Pa] as in `half_space.Tiles`; `yaw` [rad/m] turns the wheelset with the shift.
+    `tell` is called after each."""
+    patches, rigid = [], []
+    for shift in shifts:
+        try:
+            pose = track.pose(shift, yaw * shift)
+            patches.append(strips(track.side, pose, load, modulus))
+        except EndOfProfile as error:
+            raise EndOfProfile(f"at {1e3 * shift:g} mm {error}") from None
+        rigid.append(track.side.lowest(pose)[1])
+        if tell:
+            tell(shift)
+    return Over(np.asarray(shifts), patches, np.array(rigid))
+
+
+def conicities(found: Over, track: Track, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Equivalent conicities [1] at amplitudes [m] of rigid wheels without roll (EN 15302), and of the centres of load."""
+    side, end = track.side, min(-found.shifts[0], found.shifts[-1])
+    y = np.linspace(-end - 2e-3, end + 2e-3, 401)
+    rigid = conicity(y, track.rigid_difference(y), amplitudes, side.radius, side.half_spacing)
+    shifts = found.shifts[np.abs(found.shifts) <= end + 1e-9]
+    radius = np.interp(shifts, found.shifts, found.radius) - np.interp(-shifts, found.shifts, found.radius)
+    return rigid, conicity(shifts, radius, amplitudes, side.radius, side.half_spacing)
