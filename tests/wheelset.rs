@@ -28,7 +28,7 @@ fn both() -> [Arc<Model>; 2] {
     [WheelsetSide::Right, WheelsetSide::Left].map(|side| wheel(side, |_| {}))
 }
 
-/// What the contact does to the wheelset: forces along x, y and z, moments about them.
+/// Forces of the contact on the wheelset along x, y and z, and moments about them.
 fn wrench(seen: &Outputs) -> [f64; 6] {
     [
         seen.wheelset_force_x,

@@ -8,8 +8,8 @@ use crate::analytic::{HalfPlane, contact_modulus, hertz_half_width};
 use crate::axes::{Axis, PerAxis};
 use crate::contact::line::ContactGrid;
 use crate::contact::{
-    ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction,
-    HalfSpace, Influence, LineKernel, LineLayout, LineProblem, PatchLayout, PatchMaterial, RigidMotion, Spin,
+    ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, BySpeed, ContactError, ContactProblem, ContactState, Drift,
+    Friction, HalfSpace, Influence, LineKernel, LineLayout, LineProblem, PatchLayout, PatchMaterial, RigidMotion,
     SteelLimits, SurfaceResponse, Traction, Undeformed,
 };
 use crate::linalg::POINTS;
@@ -170,7 +170,10 @@ impl RollingContact {
         let problem = ContactProblem {
             lines: lines.collect(),
             rigid: self.motions(step),
-            spin: Spin { per_travel: step.creepages.spin, per_rotation: 0.0 },
+            drift: Drift {
+                spin: BySpeed { per_travel: step.creepages.spin, ..BySpeed::default() },
+                ..Drift::default()
+            },
             nominal_load: self.nominal_load / self.width,
             edge_tolerance: EDGE_TOLERANCE,
             begin: Begin::Before(1.0),

@@ -102,8 +102,8 @@ parameters! {
                  where it is hollow; 0: straight, as a cone is";
             1201 basic rows: String = String::new(),
                 "Patch under contact.rows_load with contact.shape = rows: the name of a .csv file, or its content with ; between \
-                 the lines, with the columns position,half_length,load_share and, where distances differ, width, see \
-                 docs/patches.md";
+                 the lines, with the columns position,half_length,load_share and, where distances differ, width; with wheelset.side also \
+                 angle,radius,lateral, see docs/patches.md";
             1202 expert rows_load: f64 = 100e3, in "N" as "kN", from 1e-3 to 1e9,
                 "Load of the patch that contact.rows describes; under other loads its lengths go with the third root of the load";
             1199 basic rail_lateral_radius: f64 = 0.3, in "m" as "mm", from -100.0 to 100.0,

@@ -17,7 +17,7 @@ use crate::contact::{
     ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction,
     LineLayout, LineProblem, RetardedSurface, SteelLimits, SurfaceResponse, Traction, Undeformed,
 };
-use crate::material::{INDENTATION, YIELD_IN_SHEAR};
+use crate::material::{INDENTATION, Isotropic, YIELD_IN_SHEAR};
 use crate::mechanics;
 use crate::piecewise::{self, smooth_step};
 use crate::surface::{Placement, Surfaces};
@@ -44,6 +44,8 @@ pub struct ContactModel {
     yield_pressure: f64,
     /// Yield strength of cold steel in shear \[Pa].
     pub shear_yield: f64,
+    /// Half-width of the nominal patch over the shear modulus [m/Pa].
+    flows: f64,
     /// Distance from the contact point up to which contact is looked for at all [m].
     reach: f64,
 }
@@ -70,6 +72,7 @@ impl ContactModel {
                 false => f64::INFINITY,
             },
             shear_yield: YIELD_IN_SHEAR * config.material.yield_strength,
+            flows: mechanics::nominal_half_width(config) / Isotropic::from(&config.material).shear_modulus(),
             reach,
         })
     }
@@ -231,6 +234,7 @@ impl ContactModel {
                     step.duration,
                     traction,
                 ),
+                flows: self.flows,
                 softened: if step.cold_steel { &piecewise::EMPTY } else { &weakening.strength },
                 film: &weakening.film,
             },

@@ -118,9 +118,7 @@ impl PatchLines {
             (_, None) => PatchLayout::ellipse(&config.hertz(), radius, material, lines, width, load),
         };
         let patch = patch.scaling(unit, LEAST_SIZE);
-        // Soft steel under lateral forces makes patches longer than that of the layout, too.
-        let roomy = !smooth || config.contact.lateral && config.physics.yielding;
-        let patch = if roomy { patch.with_room() } else { patch };
+        let patch = if smooth { patch } else { patch.with_room() };
         let patch = if config.contact.lateral { patch.sideways() } else { patch }.reaching(end);
         let (count, symmetric, centre, gaps) =
             (patch.len(), patch.is_symmetric(), patch.centre(), patch.gaps().to_vec());

@@ -6,6 +6,7 @@ use super::sideways::SideMotion;
 use super::support::BaseMotion;
 use super::wheelset::Pose;
 use crate::axes::PerAxis;
+use crate::contact::Drift;
 use crate::heat::LateralHistory;
 use crate::mechanics::response::BodyState;
 use crate::multistep::History;
@@ -153,16 +154,21 @@ pub struct Motion {
     pub aside: f64,
     /// Its lateral velocity V_z [m/s].
     pub lateral: History,
-    /// Drift of its surface at the contact besides these motions, see [`Drift`](crate::contact::Drift): velocities along and
+    /// Drift of its surface at the contact besides these motions, see [`Drift`]: velocities along and
     /// across [m/s], and angular velocity about the normal of the contact, clockwise from above positive [rad/s].
     pub drift: [f64; 3],
-    /// Part of the lateral force that lifts the wheel, see [`Drift::rise`](crate::contact::Drift::rise) \[1].
+    /// Part of the lateral force that lifts the wheel, see [`Drift::rise`] \[1].
     pub rise: f64,
     /// Pose of the wheelset; all zero without one.
     pub pose: Pose,
 }
 
 impl Motion {
+    /// Takes the drift of the wheel with the `rigid` motions V and Ω, and the pose of the wheelset.
+    pub fn guide(&mut self, drift: &Drift, rigid: PerAxis<f64>, pose: Pose) {
+        (self.drift, self.rise, self.pose) = (drift.velocities(rigid), drift.rise, pose);
+    }
+
     /// Values of the rigid motions (V [m/s], U \[m], Ω [rad/s], V_z [m/s]).
     pub fn values(&self) -> PerAxis<f64> {
         PerAxis { height: self.height.now, ..self.velocities() }

@@ -320,10 +320,9 @@ fn solve_and_commit(
     let solved = model.contact.solve(&contact, &state.lines, &mut next.lines, &mut workspace.contact);
     solved.map_err(|error| model.contact.failure(error, state.clock.time, *dt))?;
 
-    next.motion = moved(&state.motion, [td, of_height], next.rigid(), *dt);
-    next.motion.drift = contact.drift.velocities(next.rigid());
-    next.motion.rise = contact.drift.rise;
-    next.motion.pose = Pose::of(demand.target);
+    let rigid = next.rigid();
+    next.motion = moved(&state.motion, [td, of_height], rigid, *dt);
+    next.motion.guide(&contact.drift, rigid, Pose::of(demand.target));
     next.side = state.side;
     let aside = side.advance(next.resultant().lateral, td, &mut next.motion.lateral, &mut next.side);
     next.motion.aside = moved_by(state.motion.aside, &state.motion.lateral, next.motion.lateral.now, *dt);

@@ -6,7 +6,7 @@ mod texts;
 use super::Simulation;
 use crate::contact::FrictionLaw;
 use crate::material::{BOILS, INDENTATION};
-use crate::mechanics::{grid_spacing, nominal_half_width};
+use crate::mechanics::grid_spacing;
 use crate::rolling::line::Line;
 
 /// Makes the enumeration and the list of its items.
@@ -196,7 +196,7 @@ impl Simulation {
         let (rolling, way) = (&self.model().rolling, self.latest_ways());
         let mut middle = self.state().place(rolling.wheel.radius);
         middle.iter_mut().zip(way).for_each(|(place, way)| *place -= 0.5 * way);
-        let patch = 2.0 * nominal_half_width(self.model().config());
+        let patch = 2.0 * self.model().rolling.contact.nominal_half_width();
         rolling.contact.surfaces.shortest_wavelength(middle, rolling.zone + 0.5 * self.latest_way(), patch)
     }
 
@@ -225,7 +225,7 @@ impl Simulation {
     /// Height of the surfaces that internal steps pass over \[m]; zero where they resolve the shortest wave, or the patch,
     /// which evens out shorter ones.
     fn missed_height(&self) -> f64 {
-        let (rolling, patch) = (&self.model().rolling, nominal_half_width(self.model().config()));
+        let (rolling, patch) = (&self.model().rolling, self.model().rolling.contact.nominal_half_width());
         let seen = self.shortest_wave().max(2.0 * patch) / FEWEST_PER_WAVE;
         let (all, ways, end) = (self.latest_way(), self.latest_ways(), self.state().place(rolling.wheel.radius));
         let [mean, last] = self.strides();
@@ -240,7 +240,7 @@ impl Simulation {
 
     /// Approach of the bodies under the nominal load, were they rigid but for the contact \[m].
     fn nominal_approach(&self) -> f64 {
-        libm::pow(nominal_half_width(self.model().config()), 2.0) / (2.0 * self.model().config().wheel.radius)
+        libm::pow(self.model().rolling.contact.nominal_half_width(), 2.0) / (2.0 * self.model().config().wheel.radius)
     }
 
     /// Loss of more energy than goes with a load that has moved up and down by `rise` \[m]: where vibrations are
@@ -255,7 +255,7 @@ impl Simulation {
     /// Largest error of the force over a sharp hole of a `length` \[m] by the grid, over the load \[1].
     fn error_over_a_hole(&self, length: f64) -> f64 {
         let config = self.model().config();
-        let (half_width, element) = (nominal_half_width(config), grid_spacing(config));
+        let (half_width, element) = (self.model().rolling.contact.nominal_half_width(), grid_spacing(config));
         HOLE * element * (length + element) / (half_width * half_width)
     }
 
@@ -326,7 +326,7 @@ impl Simulation {
             return 0.0;
         }
         let fall = law.fall(state.available_friction, slip);
-        let half_width = nominal_half_width(config);
+        let half_width = self.model().rolling.contact.nominal_half_width();
         let load = outputs.contact_force_y / config.model.nominal_load;
         let shift = TREAD_SHIFT * load * half_width * half_width / config.wheel.radius;
         let length = law.memory_length;

@@ -30,6 +30,11 @@ impl Flattening {
         self.dents.depth(s) + self.worn.depth(s)
     }
 
+    /// Depth of the dents at the position `s` \[m].
+    pub fn dent(&self, s: f64) -> f64 {
+        self.dents.depth(s)
+    }
+
     /// Largest depth of a dent \[m].
     pub fn deepest_dent(&self) -> f64 {
         self.dents.deepest()

@@ -59,13 +59,28 @@ impl Unevenness for Placement<'_> {
     /// Rolling brings the material ahead under the contact: at `x` lie the angle `angle + x/r` of the wheel (0: below
     /// its centre at the start) and the distance `distance + x` of the rail.
     fn depth(&self, x: f64) -> [f64; 2] {
-        let positions = [self.angle * self.surfaces.radius + x, self.distance + x];
+        let positions = self.positions(x);
         let [wheel, rail] = self.surfaces.heights(positions);
         let depth = |body: usize| match self.flattening[body] {
             flattening if flattening.is_empty() => 0.0,
             flattening => flattening.depth(positions[body]),
         };
         [depth(0) - wheel, depth(1) - rail]
+    }
+
+    fn dented(&self, x: f64) -> f64 {
+        self.flattening.iter().zip(self.positions(x)).map(|(flattening, s)| flattening.dent(s)).sum()
+    }
+
+    fn is_dented(&self) -> bool {
+        self.flattening.iter().any(|flattening| flattening.is_dented())
+    }
+}
+
+impl Placement<'_> {
+    /// Positions \[m] of what lies at `x` \[m] along the surfaces of wheel and rail.
+    fn positions(&self, x: f64) -> [f64; 2] {
+        [self.angle * self.surfaces.radius + x, self.distance + x]
     }
 }
 

@@ -64,6 +64,9 @@ pub struct SteelLimits<'a> {
     /// Share in which the shear of friction counts \[1]: whole where steel stands under the contact, not at all where
     /// it rolls through.
     pub sheared: f64,
+    /// Depth of a dent over the yield strength in shear from which on the steel under it has flowed as a whole [m/Pa]:
+    /// half-width of the contact over shear modulus, so that the dent shears it by as much as it gives way elastically.
+    pub flows: f64,
     /// Share of the largest pressure that remains, over x \[1]; empty: all of it.
     pub softened: &'a Piecewise,
     /// Share of the friction coefficient that remains where the surface melts, over x \[1]; empty: all of it.
@@ -73,7 +76,7 @@ pub struct SteelLimits<'a> {
 impl<'a> SteelLimits<'a> {
     /// No limit at all; `all` is an empty function.
     pub fn none(all: &'a Piecewise) -> Self {
-        Self { pressure: f64::INFINITY, least: 0.0, sheared: 0.0, softened: all, film: all }
+        Self { pressure: f64::INFINITY, least: 0.0, sheared: 0.0, flows: 0.0, softened: all, film: all }
     }
 
     /// True if the pressure is limited at all.
@@ -84,6 +87,11 @@ impl<'a> SteelLimits<'a> {
     /// Yield strength in shear at `x` \[m] \[Pa].
     pub fn strength_at(&self, x: f64) -> f64 {
         self.pressure_at(x) / PRANDTL
+    }
+
+    /// How far the steel at `x` \[m] under a dent of some `depth` \[m] has flowed \[1].
+    pub fn flowed(&self, x: f64, depth: f64) -> f64 {
+        (depth / (self.flows * self.strength_at(x))).min(1.0)
     }
 
     /// Share of the largest pressure that is left under a shear traction that is the share `ratio` of it \[1]; `None`:

@@ -7,6 +7,12 @@ pub trait Unevenness {
     /// Depths \[m] by which the material of wheel and rail that lies at `x` \[m] from the contact point is missing from
     /// circle and plane; negative: it stands out.
     fn depth(&self, x: f64) -> [f64; 2];
+
+    /// Depth \[m] of the dents that yielding has pressed into wheel and rail together at `x` \[m].
+    fn dented(&self, x: f64) -> f64;
+
+    /// Presence of such dents.
+    fn is_dented(&self) -> bool;
 }
 
 /// Undeformed surfaces under a line: a circle over a plane, as heat has changed them, and their unevenness.

@@ -69,7 +69,7 @@ impl KnownPart {
         }
         self.slip_offset.clear();
         self.slip_offset.extend(state.moved[0].iter().map(|h| h.offset(&problem.time)));
-        self.strength.find(grid, &problem.limits, &state.forces, &state.lateral);
+        self.strength.find(grid, problem, state);
         self.find_unevenness(grid, problem);
     }
 
