@@ -62,9 +62,9 @@ def test_all_terms_together_do_the_work_that_friction_takes(start, side, speed):
     sign, lever or factor of any term changes the power by percents. The wheelset rises along the plane of contact."""
     angle, radius, load = 0.3, 0.4615, 1e5
     sign = 1.0 if side == "right" else -1.0
-    yaw, y_rate, yaw_rate, omega = 2e-3, 0.03, 2.0, speed / radius * 0.999
+    yaw, y_rate, yaw_rate, omega = 2e-3, 0.03, 0.3, speed / radius * 0.999
     parameters = example.FIXED | {
-        "initial.velocity": speed, "wheelset.side": side, "wheelset.half_spacing": 0.015, "contact.shape": "rows", "contact.lines": 9,
+        "initial.velocity": speed, "wheelset.side": side, "wheelset.half_spacing": 0.1, "contact.shape": "rows", "contact.lines": 9,
         "contact.rows": rows(angle, radius, 2e-3),
     }  # fmt: skip
     inputs = example.CONTROL | {
@@ -77,12 +77,12 @@ def test_all_terms_together_do_the_work_that_friction_takes(start, side, speed):
     force = np.array(wheel.get("wheelset.force_x", "wheelset.force_y", "wheelset.force_z"))
     moment = np.array(wheel.get("wheelset.moment_x", "wheelset.moment_y", "wheelset.moment_z"))
     friction, normal, lateral = wheel.get("heat.friction_power", "contact.force_y", "contact.force_z")
-    rise = (y_rate - radius * omega * np.sin(yaw)) * np.tan(sign * angle)
+    rise = y_rate * np.tan(sign * angle)
     turning = np.array([omega * np.sin(yaw), -yaw_rate, -omega * np.cos(yaw)])
     powers = np.array([*(force * [speed, rise, y_rate]), *(moment * turning)])
     print(f"figure: hunting.power = {powers.sum() / -friction - 1.0:.2e}")
     print(f"powers {powers.round(1)} W, together {powers.sum():.2f} W, friction takes {friction:.2f} W")
-    assert friction > 1e3 and powers.sum() == pytest.approx(-friction, rel=2e-3)
+    assert friction > 300.0 and powers.sum() == pytest.approx(-friction, rel=2e-3)
     assert force[1] == pytest.approx(load, rel=2e-3) and np.hypot(normal, lateral) == pytest.approx(np.hypot(force[1], force[2]), rel=1e-9)
     # What guides the wheel is the reaction to all of these, and puts in what friction takes.
     names = ("hub.force_x", "hub.moment", "hub.lateral_power", "hub.spin_power", "wheel.velocity", "wheel.omega")

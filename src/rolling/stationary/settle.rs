@@ -167,6 +167,8 @@ impl Pass<'_> {
             AxisDrive::Free { load } if axis != Axis::Height => load,
             _ => -resultant[axis],
         });
+        // What lifts the wheel along an inclined plane of contact carries a part of its load.
+        next.hub.force.height -= goal.drift(model).rise * resultant.lateral;
         next.hub.driving = next.hub.force;
         let unbalanced =
             |axis: Axis| (trial.accelerations[axis] - accelerations[axis]).abs() * model.wheel.inertia[axis];

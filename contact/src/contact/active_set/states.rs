@@ -179,10 +179,10 @@ pub(super) fn found_anew(line: &mut ContactLine) {
 }
 
 /// Gives nodes at which stick ends the states that they have if friction or slip changes by as much again as in the step before;
-/// on rough surfaces every step is another one.
+/// on rough surfaces every step is another one, and a stationary state follows none.
 pub(super) fn foresee(line: &mut ContactLine) {
     let mut reserves = std::mem::take(&mut line.state.reserve);
-    if !line.given.rail_slope.is_empty() {
+    if !line.given.rail_slope.is_empty() || line.problem.time.is_stationary() {
         return;
     }
     reserves.resize(line.grid.len(), 0.0);
