@@ -412,7 +412,8 @@ fn what_belongs_to_the_other_kind_of_host_is_refused_by_name() {
         change(&mut inputs);
         Simulation::new(model.clone(), &inputs).err().unwrap().to_string()
     };
-    let of_the_wheel: [(fn(&mut Inputs), &str); 4] = [
+    type Change = fn(&mut Inputs);
+    let of_the_wheel: [(Change, &str); 4] = [
         (|inputs| inputs.drive.lateral_velocity = 0.1, "drive.lateral_velocity = 0.1"),
         (|inputs| inputs.drive.spin = 0.2, "drive.spin = 0.2"),
         (|inputs| inputs.drive.contact_angle = 0.1, "drive.contact_angle = 0.1"),
@@ -422,7 +423,7 @@ fn what_belongs_to_the_other_kind_of_host_is_refused_by_name() {
         let text = refused(&with, change);
         assert!(text.contains(words) && text.contains("set wheelset.side = none"), "{text}");
     }
-    let of_the_wheelset: [(fn(&mut Inputs), &str); 2] = [
+    let of_the_wheelset: [(Change, &str); 2] = [
         (|inputs| inputs.drive.yaw = 0.1, "wheelset.yaw = 0.1"),
         (|inputs| inputs.rate.roll = 0.2, "wheelset.roll = 0.2"),
     ];
