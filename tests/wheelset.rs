@@ -92,7 +92,7 @@ fn the_left_wheel_is_the_mirror_image_of_the_right_one() {
         (of_right[k] - mirrored * of_left[k]) / sizes[k]
     });
     println!("{of_right:.1?} missed by {missed:?}");
-    figure("wheelset.mirror", &[missed.iter().fold(0.0, |most: f64, missed| most.max(missed.abs()))]);
+    round_off("wheelset.mirror", &[missed.iter().fold(0.0, |most: f64, missed| most.max(missed.abs()))], 1e-10);
     assert!(missed.iter().all(|missed| missed.abs() < 1e-9) && of_right[2].abs() > 0.05 * LIMIT);
 }
 
@@ -124,7 +124,7 @@ fn a_locked_wheel_slides_where_the_wheelset_goes_however_it_is_turned() {
     });
     let last = &seen[300];
     println!("{:.1} N ahead, {:.3} N to the right", last.wheelset_force_x, last.wheelset_force_z);
-    figure("wheelset.locked", &[(last.wheelset_force_z / LIMIT).abs()]);
+    round_off("wheelset.locked", &[(last.wheelset_force_z / LIMIT).abs()], 1e-6);
     assert!((last.wheelset_force_x / -LIMIT - 1.0).abs() < 5e-3 && last.wheelset_force_z.abs() < 1e-3 * LIMIT);
 }
 
