@@ -94,6 +94,25 @@ def undeclared(known, names, declared):
     return {name for name in names if declared[name] is not None and known not in declared[name]}
 
 
+def those_that_act(wheel, perturbations, declared):
+    """Inputs that change outputs of the next step; at once they change only those that declare them."""
+    here = wheel.save()
+    before = values(wheel)
+    wheel.step(1e-3)
+    unperturbed = values(wheel)
+    acted = set()
+    for perturbation in perturbations:
+        (name,) = perturbation
+        wheel.restore(here)
+        wheel.set(perturbation)
+        assert not undeclared(name, changed(before, values(wheel)), declared), name
+        wheel.step(1e-3)
+        if changed(unperturbed, values(wheel)):
+            acted.add(name)
+    wheel.forget(here)
+    return acted
+
+
 def test_every_input_and_output_is_covered(fmu, unknowns):
     inputs = {v.name for v in fmu.description.modelVariables if v.causality == "input"}
     outputs = {v.name for v in fmu.description.modelVariables if v.causality == "output"}
@@ -109,20 +128,7 @@ def test_between_steps_inputs_change_only_what_is_declared_and_act_in_the_next_s
     wheel = start(START, inputs)
     for _ in range(5):
         wheel.step(1e-3)
-    here = wheel.save()
-    before = values(wheel)
-    wheel.step(1e-3)
-    unperturbed = values(wheel)
-    acted = set()
-    for perturbation in perturbations:
-        (name,) = perturbation
-        wheel.restore(here)
-        wheel.set(perturbation)
-        assert not undeclared(name, changed(before, values(wheel)), unknowns[0]), name
-        wheel.step(1e-3)
-        if changed(unperturbed, values(wheel)):
-            acted.add(name)
-    wheel.forget(here)
+    acted = those_that_act(wheel, perturbations, unknowns[0])
     prescribed = {
         "forces": {*FORCES, *(f"{name}_rate" for name in FORCES)},
         "motion": {"drive.omega", "drive.velocity", "drive.displacement", "drive.lateral_velocity"},
@@ -136,19 +142,7 @@ def test_the_pose_of_a_wheelset_changes_only_what_is_declared_and_acts_in_the_ne
     wheel = start(START | {"wheelset.side": "right"}, SWITCHED | {"drive.omega": V / 0.46, "drive.velocity": V} | {name: pair[0] for name, pair in POSE.items()})
     for _ in range(5):
         wheel.step(1e-3)
-    here = wheel.save()
-    before = values(wheel)
-    wheel.step(1e-3)
-    unperturbed = values(wheel)
-    acted = set()
-    for name, (_, other) in POSE.items():
-        wheel.restore(here)
-        wheel.set({name: other})
-        assert not undeclared(name, changed(before, values(wheel)), unknowns[0]), name
-        wheel.step(1e-3)
-        if changed(unperturbed, values(wheel)):
-            acted.add(name)
-    wheel.forget(here)
+    acted = those_that_act(wheel, [{name: pair[1]} for name, pair in POSE.items()], unknowns[0])
     # An ellipse is the same wherever the wheelset stands.
     assert acted == set(POSE) - {"wheelset.lateral"}
 
