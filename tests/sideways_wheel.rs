@@ -314,3 +314,30 @@ fn more_lateral_force_than_friction_carries_is_no_start() {
     let text = Simulation::new(model, &inputs).err().unwrap().to_string();
     assert!(text.contains("drive.lateral_force") && text.contains("4.000000e4 N"), "{text}");
 }
+
+/// A step that ends early, where the brake locks the wheel, leaves the lateral velocity on its way to the end of the whole step.
+#[test]
+fn a_step_that_ends_early_has_moved_aside_as_far_as_it_would_have_by_then() {
+    let model = sideways(5, |config| config.tuning.max_step = 5e-4);
+    let mut inputs = Inputs::rolling(model.config());
+    (inputs.translation, inputs.drive.torque) = (Translation::Velocity, 2e4);
+    let mut simulation =
+        Simulation::new(model, &Inputs { drive: Drive { torque: 0.0, ..inputs.drive }, ..inputs }).unwrap();
+    let h = 5e-3;
+    for k in 1.. {
+        let before = simulation.outputs().wheel_lateral_velocity;
+        inputs.drive.lateral_velocity = 0.01 * f64::from(k);
+        let reached = simulation.advance_to_event(&inputs, h).unwrap();
+        let moved = simulation.outputs().wheel_lateral_velocity - before;
+        assert!(
+            (moved - reached / h * (inputs.drive.lateral_velocity - before)).abs() < 1e-12,
+            "{moved} in {reached} s"
+        );
+        if reached < h {
+            println!("ended after {reached:.2e} of {h} s, in the step {k}: {moved:.5} m/s aside");
+            assert!(simulation.outputs().brake_locked && k > 1);
+            return;
+        }
+        assert!(k < 100, "the wheel locks: {} rad/s", simulation.outputs().wheel_omega);
+    }
+}

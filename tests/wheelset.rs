@@ -92,11 +92,11 @@ fn the_left_wheel_is_the_mirror_image_of_the_right_one() {
         (of_right[k] - mirrored * of_left[k]) / sizes[k]
     });
     println!("{of_right:.1?} missed by {missed:?}");
-    figure("wheelset.mirror", &[missed.iter().fold(0.0, |most: f64, missed| most.max(missed.abs()))]);
+    round_off("wheelset.mirror", &[missed.iter().fold(0.0, |most: f64, missed| most.max(missed.abs()))], 1e-10);
     assert!(missed.iter().all(|missed| missed.abs() < 1e-9) && of_right[2].abs() > 0.05 * LIMIT);
 }
 
-/// Forces and moments on the wheelset, times its velocities and turns, are what friction takes: with all terms at once.
+/// Forces and moments on the wheelset, times its velocities and turns, are what friction takes.
 #[test]
 fn an_outside_observer_finds_the_power_of_friction_in_the_forces_on_the_wheelset() {
     for model in both() {
@@ -105,6 +105,7 @@ fn an_outside_observer_finds_the_power_of_friction_in_the_forces_on_the_wheelset
             (drive.yaw, drive.lateral_rate, drive.yaw_rate) = (yaw, lateral_rate, yaw_rate);
         });
         let [x, _, z, mx, my, mz] = wrench(&seen);
+        // On a level plane of contact the wheelset neither rises nor leans: `fmpy_tests/test_hunting.py` has all terms.
         let spins = [yaw.sin(), 0.0, -yaw.cos()].map(|part| seen.wheel_omega * part);
         let power = x * V + z * lateral_rate + mx * spins[0] + my * (spins[1] - yaw_rate) + mz * spins[2];
         let missed = power / -seen.friction_power - 1.0;
@@ -124,7 +125,7 @@ fn a_locked_wheel_slides_where_the_wheelset_goes_however_it_is_turned() {
     });
     let last = &seen[300];
     println!("{:.1} N ahead, {:.3} N to the right", last.wheelset_force_x, last.wheelset_force_z);
-    figure("wheelset.locked", &[(last.wheelset_force_z / LIMIT).abs()]);
+    round_off("wheelset.locked", &[(last.wheelset_force_z / LIMIT).abs()], 1e-6);
     assert!((last.wheelset_force_x / -LIMIT - 1.0).abs() < 5e-3 && last.wheelset_force_z.abs() < 1e-3 * LIMIT);
 }
 
@@ -145,7 +146,7 @@ fn a_pose_moves_linearly_within_a_step() {
     let [coarse, fine, finer] = [4, 16, 64].map(end);
     println!("{coarse:.5} {fine:.5} {finer:.5}");
     figure("wheelset.linear", &[(coarse - finer).abs(), (fine - finer).abs()]);
-    assert!((coarse - finer).abs() < 0.02 && (fine - finer).abs() < 0.006 && finer.abs() > 0.02);
+    assert!((coarse - finer).abs() < 4e-3 && (fine - finer).abs() < 4e-3 && finer.abs() > 0.02);
 }
 
 /// Rows of an elliptical patch that becomes longer, narrower and steeper as the wheelset shifts to the right \[m], on a cone.

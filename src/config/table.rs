@@ -115,7 +115,7 @@ parameters! {
             1220 basic side: WheelsetSide = WheelsetSide::None,
                 "Which wheel of a wheelset it is, with contact.lateral: hosts then give the pose of the wheelset, wheelset.lateral and \
                  the like, and take wheelset.force_x and the like";
-            1221 basic half_spacing: f64 = 0.75, in "m", from 0.1 to 2.0,
+            1221 expert half_spacing: f64 = 0.75, in "m", from 0.1 to 2.0,
                 "Half of the distance of the running circles, from the middle of the wheelset to the zero of contact.rows";
         }
         /// Isotropic linear elastic material of both bodies.

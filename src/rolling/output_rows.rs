@@ -135,7 +135,8 @@ outputs! {
          on a rail.slope acts besides. The wheel's inertia is between it and contact.force_x, which a master that owns the \
          wheel's mass takes";
     501 hub_force_y: real "hub.force_y", in "N" as "kN", nominal 1e5,
-        "Vertical force on the hub, prescribed or reaction, up positive (minus drive.load and drive.load_change)";
+        "Vertical force on the hub, prescribed or reaction, up positive (minus drive.load and drive.load_change); with wheelset.side normal \
+         to the plane of contact";
     502 hub_moment: real "hub.moment", in "N.m" as "kN.m", nominal 1e4,
         "Moment that drives the hub, prescribed (drive.moment + brake.torque_actual) or reaction, forward positive; \
          conjugate to wheel.omega";

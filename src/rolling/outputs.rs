@@ -141,12 +141,12 @@ fn wheelset_outputs(model: &RollingModel, state: &State, moment: f64, others: Ou
     let force = state.resultant().map(|force| force * model.wheel.width);
     let Wrench { force, moment } = model.wheel.wheelset.wrench(&state.motion.pose, force, moment);
     Outputs {
-        wheelset_force_x: force[0],
-        wheelset_force_y: force[1],
-        wheelset_force_z: force[2],
-        wheelset_moment_x: moment[0],
-        wheelset_moment_y: moment[1],
-        wheelset_moment_z: moment[2],
+        wheelset_force_x: force.x,
+        wheelset_force_y: force.y,
+        wheelset_force_z: force.z,
+        wheelset_moment_x: moment.x,
+        wheelset_moment_y: moment.y,
+        wheelset_moment_z: moment.z,
         ..others
     }
 }

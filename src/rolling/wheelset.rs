@@ -4,9 +4,9 @@
 //! Axes are those of the track, x ahead, y up, z to the right. The wheelset stands to the right of the track's middle by its
 //! `lateral` shift, is turned to the right by its `yaw`, and leans to the right by its `roll`. Its axle points along
 //! `e = (−sin ψ cos φ, −sin φ, cos ψ cos φ)`, about which the wheel turns by −Ω, so that the surface of the wheel at the
-//! place `(0, −r, a)` of the contact moves by `V + ω × r`, and turns about the normal `n = (0, cos γ, −sin γ)` of the plane of
-//! contact, which rises to the right by `γ`. The contact acts along x, along `(0, sin γ, cos γ)` and along n. Derivation:
-//! `docs/theory/sideways.md`.
+//! place P of the contact, about `(0, −r, a)` from the middle, moves by `V + ω × P`, and turns about the normal
+//! `n = (0, cos γ, −sin γ)` of the plane of contact, which rises to the right by `γ`. The contact acts along x, along
+//! `(0, sin γ, cos γ)` and along n. Derivation: `docs/theory/sideways.md`.
 
 use super::control::{Drive, Inputs};
 use super::error::StepError;
@@ -15,6 +15,7 @@ use crate::axes::PerAxis;
 use crate::config::{Config, OnWheel, WheelsetSide, display_number};
 use crate::contact::{BySpeed, Drift};
 use crate::piecewise;
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// Pose of a wheelset in the axes of the track, and its rates.
@@ -41,6 +42,11 @@ impl Pose {
         Self { lateral, yaw, roll, lateral_rate, yaw_rate, roll_rate }
     }
 
+    /// Angular velocity by the rates of turn and lean [rad/s].
+    fn turning(&self) -> Vector3<f64> {
+        Vector3::new(self.roll_rate, -self.yaw_rate, 0.0)
+    }
+
     /// Inputs that give this pose.
     pub fn into(self, drive: Drive) -> Drive {
         let Self { lateral, yaw, roll, lateral_rate, yaw_rate, roll_rate } = self;
@@ -52,14 +58,26 @@ impl Pose {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
     /// Forces along x, y and z.
-    pub force: [f64; 3],
+    pub force: Vector3<f64>,
     /// Moments about them, right-handed.
-    pub moment: [f64; 3],
+    pub moment: Vector3<f64>,
 }
 
-/// Where a wheel touches its rail.
-#[derive(Clone, Copy, Debug)]
+/// A wheel in a pose, in the axes of the track.
 struct Stand {
+    /// Direction of the axle.
+    axle: Vector3<f64>,
+    /// Upward normal of the plane of contact.
+    normal: Vector3<f64>,
+    /// Direction to the right in this plane.
+    across: Vector3<f64>,
+    /// Centre of load from the middle of the wheelset \[m].
+    place: Vector3<f64>,
+}
+
+/// Where a wheel touches its rail in a wheelset that neither turns nor leans.
+#[derive(Clone, Copy, Debug)]
+struct Place {
     /// Lateral place of the centre of load from the middle of the wheelset \[m].
     arm: f64,
     /// Radius of rolling \[m].
@@ -75,7 +93,7 @@ pub struct Wheelset {
     side: Option<f64>,
     /// Shifts of the wheelset, ascending \[m], and where the wheel touches under them.
     shifts: Vec<f64>,
-    stands: Vec<Stand>,
+    places: Vec<Place>,
 }
 
 impl Wheelset {
@@ -89,22 +107,22 @@ impl Wheelset {
         let place = |(shift, centre, on_wheel): (f64, f64, OnWheel)| {
             let OnWheel { angle, radius, lateral } = if side.is_some() { on_wheel } else { OnWheel::default() };
             let arm = side.map_or(0.0, |side| side * config.wheelset.half_spacing + lateral.unwrap_or(centre));
-            (shift, Stand { arm, radius: radius.unwrap_or(config.wheel.radius), angle })
+            (shift, Place { arm, radius: radius.unwrap_or(config.wheel.radius), angle })
         };
-        let (shifts, stands) = patch.places().into_iter().map(place).unzip();
-        Self { side, shifts, stands }
+        let (shifts, places) = patch.places().into_iter().map(place).unzip();
+        Self { side, shifts, places }
     }
 
     /// Where the wheel touches under a shift of the wheelset \[m].
-    fn stand(&self, shift: f64) -> Stand {
+    fn place(&self, shift: f64) -> Place {
         let beside = piecewise::cubic(&self.shifts, shift);
-        let sum = |of: fn(&Stand) -> f64| beside.iter().map(|(k, weight)| weight * of(&self.stands[*k])).sum();
-        Stand { arm: sum(|stand| stand.arm), radius: sum(|stand| stand.radius), angle: sum(|stand| stand.angle) }
+        let sum = |of: fn(&Place) -> f64| beside.iter().map(|(k, weight)| weight * of(&self.places[*k])).sum();
+        Place { arm: sum(|place| place.arm), radius: sum(|place| place.radius), angle: sum(|place| place.angle) }
     }
 
     /// Radius of rolling under a shift of the wheelset \[m].
     pub fn radius(&self, shift: f64) -> f64 {
-        self.stand(shift).radius
+        self.place(shift).radius
     }
 
     /// Refuses shifts for which there is no patch.
@@ -145,10 +163,17 @@ impl Wheelset {
         }
     }
 
-    /// Where the wheel touches in a pose, and the angle between the plane of contact and the track \[rad].
-    fn touches(&self, pose: &Pose) -> (Stand, f64) {
-        let stand = self.stand(pose.lateral);
-        (stand, stand.angle - pose.roll)
+    /// The wheel in a pose. It is a cone about its axle, whose normal is that of the plane of contact where it touches: a turned wheel
+    /// touches ahead of or behind its axle.
+    fn stand(&self, pose: &Pose) -> Stand {
+        let ([yaw, cos_yaw], [roll, cos_roll]) = (both(pose.yaw), both(pose.roll));
+        let Place { arm, radius, angle } = self.place(pose.lateral);
+        let [slope, rises] = both(angle - pose.roll);
+        let axle = Vector3::new(-yaw * cos_roll, -roll, cos_yaw * cos_roll);
+        let normal = Vector3::new(0.0, rises, -slope);
+        let steep = -normal.dot(&axle);
+        let down = -(normal + steep * axle) / (1.0 - steep * steep).sqrt();
+        Stand { axle, normal, across: Vector3::new(0.0, slope, rises), place: radius * down + arm * axle }
     }
 
     /// Drift of the surface of the wheel at the centre of load besides its rigid motions under inputs.
@@ -158,14 +183,15 @@ impl Wheelset {
             return Drift { spin, ..Drift::default() };
         }
         let pose = Pose::of(drive);
-        let (Stand { arm, radius, .. }, slope) = self.touches(&pose);
-        let ([yaw, cos_yaw], [slope, rises]) = (both(pose.yaw), both(slope));
-        let [roll, level] = both(pose.roll);
-        let along = BySpeed { constant: -arm * pose.yaw_rate, per_rotation: radius * (1.0 - cos_yaw), per_travel: 0.0 };
-        let across = BySpeed { per_rotation: -radius * yaw / rises, ..BySpeed::default() };
-        let turn = roll * rises + cos_yaw * level * slope;
-        let spin = BySpeed { constant: pose.yaw_rate * rises, per_rotation: -turn, per_travel: 0.0 };
-        Drift { along, across, spin, rise: slope / rises }
+        let Stand { axle, normal, across, place } = self.stand(&pose);
+        let (turning, rolling, rises) = (pose.turning().cross(&place), axle.cross(&place), across.z);
+        let by_rotation = |per_rotation: f64| BySpeed { per_rotation, ..BySpeed::default() };
+        Drift {
+            along: BySpeed { constant: turning.x, ..by_rotation(self.radius(drive.lateral) - rolling.x) },
+            across: by_rotation(-rolling.z / rises),
+            spin: BySpeed { constant: -pose.turning().dot(&normal), ..by_rotation(axle.dot(&normal)) },
+            rise: across.y / rises,
+        }
     }
 
     /// Lateral velocity of the wheel in the plane of contact, which its turning adds to, under inputs [m/s]: what does not leave
@@ -175,32 +201,29 @@ impl Wheelset {
             return drive.lateral_velocity;
         }
         let pose = Pose::of(drive);
-        let (Stand { radius, .. }, slope) = self.touches(&pose);
-        (pose.lateral_rate - radius * pose.roll_rate) / libm::cos(slope)
+        let Stand { across, place, .. } = self.stand(&pose);
+        (pose.lateral_rate + pose.turning().cross(&place).z) / across.z
     }
 
     /// Cosine of the angle between the plane of contact and the track: a vertical load presses on this plane with the load over it,
     /// less what lifts the wheel along the plane, see [`Drift::rise`].
     pub fn level(&self, drive: &Drive) -> f64 {
-        if self.side.is_none() { 1.0 } else { libm::cos(self.touches(&Pose::of(drive)).1) }
+        if self.side.is_none() { 1.0 } else { self.stand(&Pose::of(drive)).across.z }
     }
 
     /// Wrench of contact forces on the wheelset: `force` on the wheel along, normal to and across in the plane of contact, with
     /// their forward moment about the hub, and the `spin` moment about the normal.
     pub fn wrench(&self, pose: &Pose, force: PerAxis<f64>, spin: f64) -> Wrench {
+        let PerAxis { travel, height, lateral, rotation } = force;
         if self.side.is_none() {
             return Wrench::default();
         }
-        let (Stand { arm, radius, .. }, slope) = self.touches(pose);
-        let ([slope, rises], [yaw, _]) = (both(slope), both(pose.yaw));
-        let [x, y, z] =
-            [force.travel, force.height * rises + force.lateral * slope, force.lateral * rises - force.height * slope];
-        // A turned wheel touches ahead of or behind its axle.
-        let ahead = yaw * (radius * slope / rises - arm);
-        let below = -radius - arm * pose.roll;
-        let moment =
-            [below * z - arm * y, arm * x - ahead * z + spin * rises, ahead * y - force.rotation - spin * slope];
-        Wrench { force: [x, y, z], moment }
+        let Stand { axle, normal, across, place } = self.stand(pose);
+        let force = Vector3::x() * travel + normal * height + across * lateral;
+        // The force along acts on the axle with the lever arms of deformed bodies, as in the balance of the wheel.
+        let by_deformation = -rotation - self.radius(pose.lateral) * travel;
+        let moment = place.cross(&force) + axle * by_deformation + normal * spin;
+        Wrench { force, moment }
     }
 }
 

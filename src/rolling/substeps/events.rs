@@ -1,5 +1,6 @@
 //! Communication steps that end where something happens: a wheel locks or is released, the contact is lost or made again.
 
+use super::super::model::RollingModel;
 use super::super::wheelset::Pose;
 use crate::axes::PerAxis;
 use crate::rolling::control::{Drive, Inputs};
@@ -12,8 +13,8 @@ pub fn condition(state: &State) -> [bool; 2] {
 
 /// The inputs of a step that ends at the time `reached` of one of `h` seconds \[s]: motions that are prescribed have got as far
 /// as they would have by then.
-pub fn shortened(state: &State, inputs: &Inputs, h: f64, reached: f64) -> Inputs {
-    let PerAxis { travel: velocity, height: displacement, rotation: omega, .. } = state.motion.values();
+pub fn shortened(model: &RollingModel, state: &State, inputs: &Inputs, h: f64, reached: f64) -> Inputs {
+    let PerAxis { travel: velocity, height: displacement, rotation: omega, lateral } = state.motion.values();
     let (end, rate) = (inputs.at(h), inputs.rate);
     let then = |start: f64, end: f64, rate: f64| start + reached / h * (end - start) - rate * reached;
     let (from, to, by) = (state.motion.pose, Pose::of(&end), Pose::of(&rate));
@@ -29,7 +30,8 @@ pub fn shortened(state: &State, inputs: &Inputs, h: f64, reached: f64) -> Inputs
         omega: then(omega, end.omega, rate.omega),
         velocity: then(velocity, end.velocity, rate.velocity),
         displacement: then(displacement, end.displacement, rate.displacement),
+        lateral_velocity: then(lateral, end.lateral_velocity, rate.lateral_velocity),
         ..then_pose.into(inputs.drive)
     };
-    Inputs { drive, ..*inputs }
+    Inputs { drive: model.wheel.wheelset.acting(&drive), ..*inputs }
 }

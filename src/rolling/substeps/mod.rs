@@ -173,7 +173,7 @@ pub fn advance_to_event(
     if reached == h {
         return Ok((*inputs, h));
     }
-    let inputs = shortened(state, inputs, h, reached);
+    let inputs = shortened(model, state, inputs, h, reached);
     advance(model, tuning, state, &inputs, reached, workspace, out)?;
     Ok((inputs, reached))
 }

@@ -67,12 +67,9 @@ pub fn read_off(
         slips(centred_across, &mut traction.lateral_slip);
     }
     let across = |i: usize| if state.directions() > 1 { lateral(i) * centred_across[i] } else { 0.0 };
-    let in_zone = zone.is_some();
     heat(&friction, zone, patches, &mut traction.friction.dissipation);
     traction.friction.dissipation.scale_to(power, &traction.pressure);
-    if in_zone {
-        traction.scale_slip((0..grid.len()).map(|i| tangential(i) * centred_slip[i] + across(i)).sum());
-    }
+    traction.scale_slip((0..grid.len()).map(|i| tangential(i) * centred_slip[i] + across(i)).sum());
 }
 
 /// Writes the profile of friction's power, but for a factor: that of the slip `zone` of a single patch, or from node to node.
