@@ -64,12 +64,14 @@ impl Config {
     /// prepared.
     pub(super) fn check_rows(&self) -> Result<(), RowsError> {
         let text = &self.contact.rows;
-        let read = if text.is_empty() {
-            self.patch_table()
-        } else {
-            PatchTable::parse(text, self.contact.rows_load).map(Some)
-        };
-        if patch_rows::is_file(text) { Ok(()) } else { read.map(|_| ()) }
+        if patch_rows::is_file(text) {
+            return Ok(());
+        }
+        match self.contact.shape {
+            ContactShape::Rows => self.patch_table().map(|_| ()),
+            _ if text.is_empty() => Ok(()),
+            _ => PatchTable::parse(text, self.contact.rows_load).map(|_| ()),
+        }
     }
 
     /// Patch under the nominal load, for rows in a file that has not been read that of an ellipse. A line has the half-width `a = √(4 P R / (π E*))` of the Hertzian line contact of
