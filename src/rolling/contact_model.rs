@@ -238,11 +238,12 @@ impl ContactModel {
         }
     }
 
-    /// Contact state of the Hertzian patch under a line load [N/m] (the nominal load where none is given), all stuck
-    /// and without forces yet.
-    pub fn hertzian_guess(&self, load: f64) -> ContactState {
+    /// Contact state of a line with a layout in the patch under a line load [N/m] (the nominal load where none is given), all stuck
+    /// and without forces yet. Nodes of lines that go with their load are as much smaller as these are shorter.
+    pub fn hertzian_guess(&self, load: f64, layout: &LineLayout) -> ContactState {
         let share = if load > 0.0 { load / self.nominal_line_load() } else { 1.0 };
-        self.solver.touching(self.nominal_half_width * share.sqrt())
+        let size = layout.size.map_or_else(|| share.sqrt(), |size| size.under_load);
+        self.solver.touching(self.nominal_half_width * size)
     }
 
     /// True if a driving force has jumped from what drove the hub in the last step, prescribed or reaction, or the

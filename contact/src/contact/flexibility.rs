@@ -114,20 +114,19 @@ impl HalfSpace {
 impl PatchFlexibility {
     /// That of half-spaces under lines on `tiles`; with `mirrored` those beside the middle stand for a symmetric pair.
     pub fn new(tiles: &[Tile], mirrored: bool, material: HalfSpace) -> Self {
-        let (factor, nu) = (material.factor(), material.poissons_ratio);
         let beside = |tile: &Tile| mirrored && tile.edges[0] + tile.edges[1] > LEAST_OFFSET * tile.width();
-        let mut pairs = table(tiles, factor, &beside, |at, of, x| at.displaced_by(of, x, nu));
-        let left = leave(&mut pairs, tiles, 2.0 * (1.0 - nu) * factor);
+        let [mut pairs] = tables(tiles, material, &beside, [Tile::displaced_by]);
+        let left = leave(&mut pairs, tiles, 2.0 * (1.0 - material.poissons_ratio) * material.factor());
         Self { lines: tiles.len(), pairs, left, lateral: None }
     }
 
-    /// With forces and displacements across of the lines of [`Self::new`] on `tiles` that are not mirrored.
-    pub fn sideways(self, tiles: &[Tile], material: HalfSpace) -> Self {
-        let (factor, nu) = (material.factor(), material.poissons_ratio);
-        let mut across = table(tiles, factor, &|_| false, |at, of, x| at.displaced_across_by(of, x, nu));
-        let askew = table(tiles, factor, &|_| false, |at, of, x| at.displaced_askew_by(of, x, nu));
-        let left = leave(&mut across, tiles, 2.0 * factor);
-        Self { lateral: Some(LateralTables { across, left, askew }), ..self }
+    /// That of [`Self::new`] with forces and displacements across, of lines that are not mirrored.
+    pub fn sideways(tiles: &[Tile], material: HalfSpace) -> Self {
+        let kernels = [Tile::displaced_by, Tile::displaced_across_by, Tile::displaced_askew_by];
+        let [mut pairs, mut across, askew] = tables(tiles, material, &|_| false, kernels);
+        let left = leave(&mut pairs, tiles, 2.0 * (1.0 - material.poissons_ratio) * material.factor());
+        let lateral = LateralTables { left: leave(&mut across, tiles, 2.0 * material.factor()), across, askew };
+        Self { lines: tiles.len(), pairs, left, lateral: Some(lateral) }
     }
 
     /// Sum of flexibilities of as many lines, times weights.
@@ -294,29 +293,34 @@ impl InPatch<'_> {
     }
 }
 
-/// Effects of unit forces on `tiles` on each other by a kernel, times `factor`; those `beside` the middle stand for a
-/// symmetric pair.
-fn table(
+/// Displacement of a tile by a force on another one, at a distance \[m], with Poisson's ratio \[1].
+type Kernel = fn(Tile, Tile, f64, f64) -> TileInfluence;
+
+/// Effects of unit forces on `tiles` on each other by kernels; those `beside` the middle stand for a symmetric pair.
+fn tables<const K: usize>(
     tiles: &[Tile],
-    factor: f64,
+    material: HalfSpace,
     beside: &impl Fn(&Tile) -> bool,
-    kernel: impl Fn(&Tile, Tile, f64) -> TileInfluence,
-) -> Vec<Between> {
+    kernels: [Kernel; K],
+) -> [Vec<Between>; K] {
     let (projection, count) = (MomentProjection::new(), tiles.len());
-    let mut pairs = vec![Between::default(); count * count];
-    for (pair, (at, of)) in pairs.iter_mut().zip(tiles.iter().flat_map(|at| tiles.iter().map(move |of| (at, of)))) {
+    let mut tables = kernels.map(|_| vec![Between::default(); count * count]);
+    for (pair, (at, of)) in tiles.iter().flat_map(|at| tiles.iter().map(move |of| (at, of))).enumerate() {
         for image in [Some(*of), beside(of).then(|| of.mirrored())].into_iter().flatten() {
-            projection.add([at, of], factor, |x| kernel(at, image, x), pair);
+            let at_distance = |x: f64| kernels.map(|kernel| kernel(*at, image, x, material.poissons_ratio));
+            projection.add([at, of], material.factor(), at_distance, tables.each_mut().map(|table| &mut table[pair]));
         }
     }
     let width = |tile: &Tile| if beside(tile) { 2.0 * tile.width() } else { tile.width() };
     for (i, j) in (0..count).flat_map(|i| (i..count).map(move |j| (i, j))) {
-        let [mut first, mut second] = [pairs[i * count + j], pairs[j * count + i]];
         let of = [&tiles[i], &tiles[j]];
-        reconcile([&mut first, &mut second], of.map(width), of.map(|tile| tile.half_length));
-        (pairs[i * count + j], pairs[j * count + i]) = (first, second);
+        for pairs in &mut tables {
+            let [mut first, mut second] = [pairs[i * count + j], pairs[j * count + i]];
+            reconcile([&mut first, &mut second], of.map(width), of.map(|tile| tile.half_length));
+            (pairs[i * count + j], pairs[j * count + i]) = (first, second);
+        }
     }
-    pairs
+    tables
 }
 
 /// Leaves the mean displacement of every line to its own logarithm, whose factor is `factor` \[m²/N]: a constant
@@ -406,7 +410,7 @@ mod tests {
     #[test]
     fn works_along_and_across_of_two_lines_on_each_other_are_the_same() {
         let tiles = strips(1e-3);
-        let patch = PatchFlexibility::new(&tiles, false, STEEL).sideways(&tiles, STEEL);
+        let patch = PatchFlexibility::sideways(&tiles, STEEL);
         let forces = [
             [[1.0, 0.3, -0.2, 0.5, 0.1], [0.2, -0.7, 0.4, 0.1, 0.9]],
             [[0.4, -1.0, 0.7, 0.2, -0.3], [-0.5, 0.3, 0.8, -0.6, 0.2]],

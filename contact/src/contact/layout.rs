@@ -10,7 +10,7 @@ use crate::patch::rows::{self, EquivalentEllipse, PatchRow};
 use crate::patch::{Ellipse, Hertz, Tile, hertz, reach};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Smallest load for which lines are laid out, over that of the description \[1]. Under a smaller one they keep that
 /// layout, with which they are too soft.
@@ -91,8 +91,11 @@ pub struct PatchLayout {
     radius: f64,
     /// Width of the bodies \[m].
     width: f64,
-    /// Tangential flexibility under the forces of all lines.
-    flexibility: Arc<PatchFlexibility>,
+    /// True if forces have a lateral part.
+    sideways: bool,
+    /// Tangential flexibility under the forces of all lines, from when it is first asked for: tables over the shift of a wheelset have
+    /// patches on which a wheel never rolls.
+    flexibility: OnceLock<Arc<PatchFlexibility>>,
     /// Least distance \[m] at which a line's own tangential displacement ends, from which on it is the same for all lines;
     /// `None`: that which the flexibility of all leaves to each.
     least_reach: Option<f64>,
@@ -163,7 +166,6 @@ impl PatchLayout {
         let patches = || rows::patches(&rows).zip(shapes);
         let coupling = |shape: &EquivalentEllipse| material.half_plane.coupling * shape.b / (shape.a + shape.b);
         let half_space = material.half_space;
-        let flexibility = PatchFlexibility::new(&tiles(&rows, symmetric, 1.0), symmetric, half_space);
         Self {
             gaps: rows.iter().map(|row| row.gap).collect(),
             symmetric,
@@ -173,7 +175,8 @@ impl PatchLayout {
             lateral: 0.5 * rows.iter().map(|row| row.width).sum::<f64>(),
             radius,
             width,
-            flexibility: Arc::new(flexibility),
+            sideways: false,
+            flexibility: OnceLock::new(),
             least_reach: None,
             room: 1.0,
             unit: f64::INFINITY,
@@ -187,9 +190,7 @@ impl PatchLayout {
     /// With room on its lines for patches that are longer than under the load of the description, as those on surfaces
     /// with profiles are.
     pub fn with_room(self) -> Self {
-        let tiles = tiles(&self.rows, self.symmetric, ROOM);
-        let flexibility = Arc::new(PatchFlexibility::new(&tiles, self.symmetric, self.half_space));
-        Self { flexibility, room: ROOM, ..self }
+        Self { room: ROOM, flexibility: OnceLock::new(), ..self }
     }
 
     /// On nodes that end at the distance `end` \[m] from the middle: contact may be that long, whatever the layout. Lines
@@ -216,13 +217,12 @@ impl PatchLayout {
         let lower = upper.iter().skip(usize::from(middle)).rev().filter(|_| symmetric).map(mirrored);
         let rows: Vec<_> = lower.chain(upper.iter().copied()).collect();
         let images = self.couplings.iter().skip(usize::from(middle)).rev().filter(|_| symmetric);
-        let tiles = tiles(&rows, false, self.room);
-        let flexibility = PatchFlexibility::new(&tiles, false, self.half_space).sideways(&tiles, self.half_space);
         Self {
             gaps: rows.iter().map(|row| row.gap).collect(),
             couplings: images.chain(&self.couplings).copied().collect(),
             symmetric: false,
-            flexibility: Arc::new(flexibility),
+            sideways: true,
+            flexibility: OnceLock::new(),
             rows,
             ..self
         }
@@ -240,7 +240,13 @@ impl PatchLayout {
 
     /// Flexibility of lines under each other's tangential forces, the same under all loads.
     pub fn flexibility(&self) -> &Arc<PatchFlexibility> {
-        &self.flexibility
+        self.flexibility.get_or_init(|| {
+            let tiles = tiles(&self.rows, self.symmetric, self.room);
+            Arc::new(match self.sideways {
+                true => PatchFlexibility::sideways(&tiles, self.half_space),
+                false => PatchFlexibility::new(&tiles, self.symmetric, self.half_space),
+            })
+        })
     }
 
     /// Free widths between every line and the one before it under the load of the description \[m]; zero where they
@@ -335,7 +341,7 @@ impl PatchLayout {
     fn own(&self, line: usize, scale: f64) -> [Logarithm; 2] {
         let left = |line: usize| {
             let half_length = scale * self.room * self.rows[line].half_length;
-            [0, 1].map(|direction| self.flexibility.own(line, direction, half_length))
+            [0, 1].map(|direction| self.flexibility().own(line, direction, half_length))
         };
         let Some(least) = self.least_reach else { return left(line) };
         let all = (0..self.len()).flat_map(left).filter(|own| own.factor > 0.0);

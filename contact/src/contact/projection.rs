@@ -83,28 +83,42 @@ impl MomentProjection {
         Self { displaced, forced, bases }
     }
 
-    /// Adds the projection of `factor` times a kernel between two lines. What a line's own kernel is at no distance, in which
+    /// Adds the projections of `factor` times kernels between two lines. What a line's own kernel is at no distance, in which
     /// the unit of length is, is projected to round-off.
-    pub fn add(&self, [at, of]: [&Tile; 2], factor: f64, kernel: impl Fn(f64) -> TileInfluence, sum: &mut Between) {
-        let apart = if at == of { kernel(0.0) } else { TileInfluence::default() };
-        sum.displacement[0][0] += factor * apart.displacement;
-        sum.growth[0][0] += factor * apart.growth;
+    pub fn add<const K: usize>(
+        &self,
+        [at, of]: [&Tile; 2],
+        factor: f64,
+        kernels: impl Fn(f64) -> [TileInfluence; K],
+        mut sums: [&mut Between; K],
+    ) {
+        let apart = if at == of { kernels(0.0) } else { [TileInfluence::default(); K] };
+        for (sum, apart) in sums.iter_mut().zip(&apart) {
+            sum.displacement[0][0] += factor * apart.displacement;
+            sum.growth[0][0] += factor * apart.growth;
+        }
         for line in &self.displaced {
             let WeightedPlace { t, weight } = WeightedPlace::at(FRAC_PI_2 * line.ordinate);
             let (x, weight, duals) = (at.half_length * t, FRAC_PI_2 * line.weight * weight, dual(&self.bases[0], t));
-            let mut rows = [[0.0; 3]; POINTS];
+            let mut rows = [[[0.0; 3]; POINTS]; K];
             for (WeightedPlace { t, weight }, part) in from(&self.forced, (x / of.half_length).clamp(-1.0, 1.0)) {
-                let TileInfluence { displacement, strain, growth } = kernel(x - of.half_length * t);
-                for (row, dual) in rows.iter_mut().zip(dual(&self.bases[1], t)) {
+                let duals = dual(&self.bases[1], t).map(|dual| factor * part * weight * dual);
+                let influences = kernels(x - of.half_length * t);
+                for (rows, (influence, apart)) in rows.iter_mut().zip(influences.iter().zip(&apart)) {
+                    let TileInfluence { displacement, strain, growth } = influence;
                     let values = [displacement - apart.displacement, strain * at.half_length, growth - apart.growth];
-                    row.iter_mut().zip(values).for_each(|(row, value)| *row += factor * part * weight * dual * value);
+                    for (row, dual) in rows.iter_mut().zip(&duals) {
+                        row.iter_mut().zip(values).for_each(|(row, value)| *row += dual * value);
+                    }
                 }
             }
-            for (n, row) in rows.iter().enumerate() {
-                for (k, weight) in duals.iter().map(|dual| weight * dual).enumerate() {
-                    sum.displacement[n][k] += weight * row[0];
-                    sum.strain[n][k] += weight * row[1];
-                    sum.growth[n][k] += weight * row[2];
+            for (sum, rows) in sums.iter_mut().zip(&rows) {
+                for (n, row) in rows.iter().enumerate() {
+                    for (k, weight) in duals.iter().map(|dual| weight * dual).enumerate() {
+                        sum.displacement[n][k] += weight * row[0];
+                        sum.strain[n][k] += weight * row[1];
+                        sum.growth[n][k] += weight * row[2];
+                    }
                 }
             }
         }
@@ -179,7 +193,7 @@ mod tests {
             let [found, fine] = [1, 2].map(|times| {
                 let mut sum = Between::default();
                 let projection = MomentProjection::on([times * DISPLACED, times * FORCED]);
-                projection.add([&at, &of], 1.0, |x| kernel(at, of, x, 0.3), &mut sum);
+                projection.add([&at, &of], 1.0, |x| [kernel(at, of, x, 0.3)], [&mut sum]);
                 [sum.displacement, sum.strain, sum.growth]
             });
             for ((found, fine), most) in found.iter().zip(&fine).zip([5e-4, 6e-3, 2e-2]) {

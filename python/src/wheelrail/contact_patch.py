@@ -16,17 +16,19 @@ from .half_space import Pressed, Tiles
 from .smooth import between
 
 COARSE, FINE = (24, 96), (48, 240)  # tiles along the track and across
+FADING = 1e-3  # m of shift within which the rows of a place of contact grow that is about to appear or has vanished
+LEAST_ROW = 0.02  # size of rows that wait for it, over that of others
 MARGIN = 1.12  # times the approach: gaps up to there are looked at, a second place included
 
 
 class Strips(NamedTuple):
     """A patch in strips of one width along the track, from the gauge side to the field side of a wheel."""
 
-    edge: np.ndarray  # positions of their sides: lengths along the wheel's profile from the taping circle, to the field side positive [m]
+    edge: np.ndarray  # positions of their sides: lengths along the patch, that at the middle of the load along the wheel's profile from the taping circle, to the field side positive [m]
     line_load: np.ndarray  # loads normal to the surface, per width [N/m]
     peak: np.ndarray  # largest pressures [Pa]
     half_length: np.ndarray  # of half ellipses of pressure with that load and pressure [m]
-    angle: np.ndarray  # of the contact, positive where it rises to the field side [rad]
+    angle: np.ndarray  # between the contact and the axle, positive where it rises to the field side [rad]
     radius: np.ndarray  # of the wheel there [m]
     lateral: np.ndarray  # on the wheel from the taping circle [m]
     rail: np.ndarray  # lateral position on the rail from its origin [m]
@@ -65,7 +67,7 @@ def strips(side: Side, pose: Pose, load: float, modulus: float) -> Strips:
     part = np.searchsorted(gap.along, along[[columns[0], columns[-1]]] + (along[1] - along[0]) * np.array([-1.0, 1.0]))
     part = max(part[0], 0), min(part[1], len(gap.along) - 1)
     ahead, along, pressed = _pressed(gap, part, ahead[[rows[0], rows[-1]]] + [-size, size], FINE, load, modulus)
-    return _strips(side, gap, ahead, along, pressed)
+    return _strips(side, pose, gap, ahead, along, pressed)
 
 
 def _part(gap, depth):
@@ -87,7 +89,7 @@ def _pressed(gap: Gap, part, ends, count, load, modulus) -> tuple[np.ndarray, np
     return ahead, along, Tiles(count, step, modulus).press(height, np.cos(at(gap.angle)), load)
 
 
-def _strips(side, gap, ahead, along, pressed):
+def _strips(side, pose, gap, ahead, along, pressed):
     """Strips of the pressures on tiles."""
     step = along[1] - along[0]
     at = lambda values, along=along: np.interp(along, gap.along, values)
@@ -95,23 +97,63 @@ def _strips(side, gap, ahead, along, pressed):
     wheel, peak = at(gap.wheel), np.max(pressed.pressure, axis=0)
     line_load = (ahead[1] - ahead[0]) * np.sum(pressed.pressure, axis=0)
     half_length = np.divide(2.0 * line_load, np.pi * peak, out=np.zeros(len(peak)), where=peak > 0.0)
-    edge, radius = np.interp(at(gap.wheel, sides), side.u, side.length), side.radius - np.interp(wheel, side.u, side.z)
-    return Strips(edge, line_load, peak, half_length, at(gap.angle), radius, wheel, at(gap.rail), at(gap.height), pressed.approach)
+    # Of a turned wheel other points touch than those of one section: lengths are those of the patch, from the middle of the load on.
+    middle = np.average(along, weights=line_load)
+    edge = sides - middle + np.interp(at(gap.wheel, middle), side.u, side.length)
+    radius = side.radius - np.interp(wheel, side.u, side.z)
+    return Strips(edge, line_load, peak, half_length, at(gap.angle) - pose.roll, radius, wheel, at(gap.rail), at(gap.height), pressed.approach)
 
 
-def rows(patch: Strips, count: int) -> Rows:
-    """The patch in `count` rows, each with the same part of a measure: the integral of the squared largest pressure, which is that of the
-    load on Hertz's ellipse, and half as much of its changes, so that peaks keep rows of their own. So rows move smoothly with the patch,
-    and go over one by one from a place of contact that fades to another one that grows. A row on its way has a part of both, and its
-    middle between them. Loads, areas, and by the loads the means of angle and radius are those of the patch."""
+def measure(patch: Strips) -> np.ndarray:
+    """Sum up to each edge of a measure by which rows are as large as each other: the integral of the squared largest pressure, which is
+    that of the load on Hertz's ellipse, and half as much of its changes, so that peaks keep rows of their own."""
     width, square = np.diff(patch.edge), patch.peak**2
     change = np.where(square > 0.0, np.abs(np.gradient(square)), 0.0)
-    measure = np.append(0.0, np.cumsum(square * width / np.sum(square * width) + 0.5 * change / np.sum(change)))
-    cuts = np.linspace(0.0, measure[-1], count + 1)
+    return np.append(0.0, np.cumsum(square * width / np.sum(square * width) + 0.5 * change / np.sum(change)))
+
+
+def second_place(patch: Strips) -> int | None:
+    """Number of the edge at which a second place of contact begins; of several ones that behind the widest gap."""
+    pressed = np.flatnonzero(patch.peak > 0.0)
+    gaps = np.diff(pressed)
+    return int(pressed[np.argmax(gaps) + 1]) if np.any(gaps > 1) else None
+
+
+def cuts(shifts: np.ndarray, patches: list[Strips], count: int) -> list[np.ndarray]:
+    """Limits of `count` rows in the measure of each patch: in one place all are as large as each other. In two places each row has one of
+    them, the same under all shifts that follow each other. Before the shift at which a place appears, and behind that at which it
+    vanishes, its rows are next to nothing at that end of the other one, and grow within `FADING`: rows go over with nearly no load."""
+    measures, begins = [measure(patch) for patch in patches], [second_place(patch) for patch in patches]
+    two = np.array([begin is not None for begin in begins])
+    found = [np.linspace(0.0, whole[-1], count + 1) for whole in measures]
+    runs = np.flatnonzero(np.diff(np.concatenate(([0], two.astype(int), [0])))).reshape(-1, 2)
+    sizes = np.ones((len(patches), count))
+    for first, last in runs:
+        shares = [patch.mean(np.arange(len(patch.peak)) < begin) for patch, begin in zip(patches[first:last], begins[first:last])]
+        gauge = int(np.clip(round(count * float(np.mean(shares))), 1, count - 1))
+        for k in range(first, last):
+            middle, end = measures[k][begins[k]], measures[k][-1]
+            found[k] = np.concatenate((np.linspace(0.0, middle, gauge + 1), np.linspace(middle, end, count - gauge + 1)[1:]))
+        # Beside the run, on its side of another one: the place that is missing there is that with the smaller load next to it.
+        for beside, step in ((first - 1, -1), (last, 1)):
+            new = slice(0, gauge) if shares[0 if step < 0 else -1] < 0.5 else slice(gauge, count)
+            while 0 <= beside < len(patches) and not two[beside]:
+                away = abs(shifts[beside] - shifts[first if step < 0 else last - 1]) / FADING
+                sizes[beside, new] = np.minimum(sizes[beside, new], max(LEAST_ROW, min(away, 1.0) ** 2 * (3.0 - 2.0 * min(away, 1.0))))
+                beside += step
+    for k in np.flatnonzero(~two):
+        found[k] = measures[k][-1] * np.append(0.0, np.cumsum(sizes[k]) / np.sum(sizes[k]))
+    return found
+
+
+def rows(patch: Strips, cuts: np.ndarray) -> Rows:
+    """The patch in rows between limits of its measure, see `cuts`. Loads, areas, and by the loads the means of angle and radius are those
+    of the patch."""
+    width, sums = np.diff(patch.edge), measure(patch)
     # Widths of strips in rows, and middles of these parts: strips are cut in proportion to their measure.
-    low, high = np.maximum(measure[:-1], cuts[:-1, None]), np.minimum(measure[1:], cuts[1:, None])
-    scale = np.divide(width, np.diff(measure), out=np.zeros(len(width)), where=patch.peak > 0.0)
-    part, middle = np.maximum(high - low, 0.0) * scale, patch.edge[:-1] + (0.5 * (low + high) - measure[:-1]) * scale
+    low, high = np.maximum(sums[:-1], cuts[:-1, None]), np.minimum(sums[1:], cuts[1:, None])
+    scale = np.divide(width, np.diff(sums), out=np.zeros(len(width)), where=patch.peak > 0.0)
+    part, middle = np.maximum(high - low, 0.0) * scale, patch.edge[:-1] + (0.5 * (low + high) - sums[:-1]) * scale
     wide, load = np.sum(part, axis=1), part @ patch.line_load
     by_load = lambda values: part @ (patch.line_load * values) / load
     position, half_length = np.sum(part * middle, axis=1) / wide, part @ patch.half_length / wide
@@ -129,6 +171,10 @@ class Over(NamedTuple):
     def radius(self) -> np.ndarray:
         """Radius at the centre of load [m]."""
         return np.array([patch.mean(patch.radius) for patch in self.patches])
+
+    def rows(self, count: int) -> list[Rows]:
+        """All patches in `count` rows, which move smoothly with the shift."""
+        return [rows(patch, limits) for patch, limits in zip(self.patches, cuts(self.shifts, self.patches, count))]
 
 
 def over(track: Track, shifts: np.ndarray, load: float, modulus: float, yaw: float = 0.0, tell: Callable[[float], None] | None = None) -> Over:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .contact_patch import Over, rows
+from .contact_patch import Over
 from .plots import COLOURS, GREY, WIDTH, save, subplots
 
 SHOWN = 3  # patches in detail
@@ -17,7 +17,7 @@ def draw(path: Path, found: Over, count: int, amplitudes: np.ndarray, known: tup
     """Gap, patch and pressures at some shifts; angle and radius over the shift; `known` conicities over their amplitudes [m]."""
     figure, axes = subplots(3, 2, figsize=(WIDTH, 7.5))
     _patches(axes[:, 0], found)
-    _over_shift(axes[:2, 1], found, [rows(patch, count) for patch in found.patches])
+    _over_shift(axes[:2, 1], found, found.rows(count))
     for values, label, colour in zip(known or (), ("rigid", "centre of load"), (GREY, COLOURS[0])):
         axes[2, 1].plot(1e3 * amplitudes, values, ".-", label=label, color=colour)
     axes[2, 1].set(xlabel="amplitude [mm]", ylabel="equivalent\nconicity [1]")

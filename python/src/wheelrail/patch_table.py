@@ -14,7 +14,7 @@ import numpy as np
 
 from . import profile_files
 from .contact_geometry import EndOfProfile, Track
-from .contact_patch import Over, conicities, over, rows
+from .contact_patch import Over, conicities, over
 from .files import BadFile
 from .output import fresh, write_rows
 from .progress import Progress
@@ -48,8 +48,8 @@ def write(path: Path, found: Over, count: int, words: str) -> None:
     """Writes the table with `count` rows for each shift, `words` in a comment above it; units of its columns beside it."""
     with fresh(path) as new, open(new, "w", encoding="utf-8") as file:
         print(f"# {words.replace(';', ',')}", ",".join(name for name, *_ in COLUMNS), sep="\n", file=file)
-        for shift, patch in zip(found.shifts, found.patches):
-            for row in zip(*rows(patch, count)):
+        for shift, patch in zip(found.shifts, found.rows(count)):
+            for row in zip(*patch):
                 print(",".join(f"{value:.9g}" for value in (shift, *row)), file=file)
     write_rows(path.with_name(f"{path.stem}_columns.csv"), [("column", "unit", "description"), *COLUMNS])
 

@@ -14,7 +14,7 @@ use super::super::wheelset::Pose;
 use super::goal::{Goal, Trial};
 use crate::axes::{Axis, PerAxis};
 use crate::config::Tuning;
-use crate::contact::{ActiveSetScratch, AxisDrive, ContactError, Friction, FrictionLaw, Heating, LineLayout};
+use crate::contact::{ActiveSetScratch, AxisDrive, ContactError, ContactState, Friction, FrictionLaw, Heating, LineLayout};
 use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative};
 
@@ -89,13 +89,14 @@ fn lines(model: &RollingModel, load: f64, thermal: Vec<Option<ThermalState>>) ->
     let mut temperatures = thermal.into_iter();
     let line = |_| Line {
         layout: LineLayout::default(),
-        contact: model.contact.hertzian_guess(load),
+        contact: ContactState::default(),
         flattening: flattening::none(model),
         worn: 0.0,
         thermal: temperatures.next().flatten(),
     };
     let mut lines: Vec<_> = (0..model.contact.patch.count).map(line).collect();
     model.contact.patch.lay_out(load * model.wheel.width, &mut lines);
+    lines.iter_mut().for_each(|line| line.contact = model.contact.hertzian_guess(load, &line.layout));
     thermal::share_growth(&mut lines);
     lines
 }

@@ -29,7 +29,7 @@ impl PatchLayout {
             line_load: between(&|part| part.rows[i].line_load),
             gap: between(&|part| part.rows[i].gap),
         };
-        let flexibilities: Vec<_> = parts.iter().map(|(part, weight)| (&*part.flexibility, *weight)).collect();
+        let flexibilities: Vec<_> = parts.iter().map(|(part, weight)| (&**part.flexibility(), *weight)).collect();
         let rows: Vec<_> = (0..first.len()).map(row).collect();
         Self {
             gaps: rows.iter().map(|row| row.gap).collect(),
@@ -37,7 +37,7 @@ impl PatchLayout {
             load: sum(&|part| part.load),
             approach: sum(&|part| part.approach),
             lateral: sum(&|part| part.lateral),
-            flexibility: Arc::new(PatchFlexibility::blend(&flexibilities)),
+            flexibility: Arc::new(PatchFlexibility::blend(&flexibilities)).into(),
             couplings: (0..first.len()).map(|i| sum(&|part| part.couplings[i])).collect(),
             rows,
             ..*first
