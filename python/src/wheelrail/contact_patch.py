@@ -17,6 +17,7 @@ from .smooth import between
 
 COARSE, FINE = (24, 96), (48, 240)  # tiles along the track and across
 FADING = 1e-3  # m of shift within which the rows of a place of contact grow that is about to appear or has vanished
+FAINT = 0.1  # pressure between two places of contact over the largest one of the smaller of them
 LEAST_ROW = 0.02  # size of rows that wait for it, over that of others
 MARGIN = 1.12  # times the approach: gaps up to there are looked at, a second place included
 
@@ -113,10 +114,10 @@ def measure(patch: Strips) -> np.ndarray:
 
 
 def second_place(patch: Strips) -> int | None:
-    """Number of the edge at which a second place of contact begins; of several ones that behind the widest gap."""
-    pressed = np.flatnonzero(patch.peak > 0.0)
-    gaps = np.diff(pressed)
-    return int(pressed[np.argmax(gaps) + 1]) if np.any(gaps > 1) else None
+    """Number of the edge at which a second place of contact begins: behind the strip that bears least of what both sides of it bear."""
+    sides = np.minimum(np.maximum.accumulate(patch.peak), np.maximum.accumulate(patch.peak[::-1])[::-1])
+    part = np.divide(patch.peak, sides, out=np.ones(len(sides)), where=sides > 0.0)
+    return int(np.argmin(part)) if np.min(part) < FAINT else None
 
 
 def cuts(shifts: np.ndarray, patches: list[Strips], count: int) -> list[np.ndarray]:
@@ -129,8 +130,9 @@ def cuts(shifts: np.ndarray, patches: list[Strips], count: int) -> list[np.ndarr
     runs = np.flatnonzero(np.diff(np.concatenate(([0], two.astype(int), [0])))).reshape(-1, 2)
     sizes = np.ones((len(patches), count))
     for first, last in runs:
-        shares = [patch.mean(np.arange(len(patch.peak)) < begin) for patch, begin in zip(patches[first:last], begins[first:last])]
-        gauge = int(np.clip(round(count * float(np.mean(shares))), 1, count - 1))
+        shares = [whole[begin] / whole[-1] for whole, begin in zip(measures[first:last], begins[first:last])]
+        # One shift alone: as many rows as belong to each place; several ones: half of them, since each place is the larger one at its time.
+        gauge = count // 2 if last - first > 1 else int(np.clip(round(count * shares[0]), 1, count - 1))
         for k in range(first, last):
             middle, end = measures[k][begins[k]], measures[k][-1]
             found[k] = np.concatenate((np.linspace(0.0, middle, gauge + 1), np.linspace(middle, end, count - gauge + 1)[1:]))

@@ -14,7 +14,7 @@ use super::super::wheelset::Pose;
 use super::goal::{Goal, Trial};
 use crate::axes::{Axis, PerAxis};
 use crate::config::Tuning;
-use crate::contact::{ActiveSetScratch, AxisDrive, ContactError, ContactState, Friction, FrictionLaw, Heating, LineLayout};
+use crate::contact::{ActiveSetScratch, AxisDrive, ContactError, ContactState, Drift, Friction, FrictionLaw, Heating, LineLayout};
 use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative};
 
@@ -140,11 +140,14 @@ impl Pass<'_> {
         ];
         model.bodies.free_responses(&operators, state, &td, streams, &mut workspace.free);
         let free = &workspace.free;
+        let drift = goal.drift(model);
+        // Surfaces that all stick at first may lift a wheel off an inclined plane of contact by any force.
+        let drift = if self.touching { drift } else { Drift { rise: 0.0, ..drift } };
         let contact = ContactStep {
             operators: &operators,
             free,
             rigid: goal.motions(model, trial, self.touching, state.rigid(), free[0].momentum),
-            drift: goal.drift(model),
+            drift,
             shift: goal.drive.lateral,
             radius: model.wheel.wheelset.radius(goal.drive.lateral),
             time: td,

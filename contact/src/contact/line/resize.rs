@@ -4,7 +4,7 @@
 //! displacements and their histories do, goes over as a function of x. Derivation: `docs/theory/lines.md`, section 5.
 
 use super::grid::ContactGrid;
-use super::state::{GridState, NodeStatus};
+use super::state::GridState;
 use crate::contact::layout::NodeSize;
 use crate::contact::problem::LineProblem;
 use crate::multistep::History;
@@ -103,7 +103,8 @@ impl GridState {
         if ratio == 1.0 || grid.len() < CUBIC {
             return;
         }
-        self.take_states(&grid.x, ratio);
+        self.forces *= ratio;
+        self.lateral.iter_mut().for_each(|force| *force *= ratio);
         let candidates = Interpolation::new(&grid.x, ratio);
         self.take_histories(&candidates, (share / problem.share).sqrt());
         // Tractions between nodes of other distances.
@@ -155,21 +156,6 @@ impl GridState {
         } else {
             Nodes::Following
         }
-    }
-
-    /// Nodes keep states and tractions; bodies that have not pressed on each other yet touch where they did.
-    fn take_states(&mut self, x: &[f64], ratio: f64) {
-        if self.forces.iter().any(|force| *force != 0.0) {
-            self.forces *= ratio;
-            self.lateral.iter_mut().for_each(|force| *force *= ratio);
-            return;
-        }
-        let touches = |place: f64| {
-            let above = x.partition_point(|x| *x < place).clamp(1, x.len() - 1);
-            let nearest = if place - x[above - 1] < x[above] - place { above - 1 } else { above };
-            if place.abs() > x[x.len() - 1] { NodeStatus::Open } else { self.status[nearest] }
-        };
-        self.status = x.iter().map(|x| touches(ratio * x)).collect();
     }
 
     /// Displacements of before go over as functions of x; those by the lines of a patch whose width has changed become
