@@ -131,3 +131,16 @@ def test_a_wheelset_told_in_every_convention_of_the_page_does_the_same(start):
     assert abs(runs[0][0] - 2e-3) > 1e-5
     for run in runs[1:]:
         np.testing.assert_allclose(run, runs[0], rtol=1e-9)
+
+
+def test_a_wheelset_on_profiles_dies_out_below_its_critical_speed_and_runs_from_flange_to_flange_above(fmu, tmp_path):
+    """S1002 on 60E1: with elastic patches 50 m/s dies out, where rigid points hunt falsely from 40 m/s on, and 70 m/s keeps 6.1 mm
+    (design, computed beside the FMU with a fixed ellipse)."""
+    table = example.patches(tmp_path, "-6.2:6.2:0.2")
+    slow = example.hunting(fmu, example.Profiled(50.0, table=table, y=3e-3), 0.6)
+    fast = example.hunting(fmu, example.Profiled(70.0, table=table, y=5.8e-3), 0.5)
+    amplitudes = [1e3 * np.abs(rows[-250:, 1]).max() for rows in (slow, fast)]
+    rate, frequency = example.growth(slow[:, 0], slow[:, 1])
+    print(f"figure: hunting.profiles [mm] = {amplitudes[0]:.2f}, {amplitudes[1]:.2f} ± 0.05")
+    print(f"50 m/s: {frequency:.2f} Hz, growth {rate:.2f} 1/s; largest force of a wheel at 70 m/s {1e-3 * np.abs(fast[-250:, 4]).max():.1f} kN")
+    assert rate < -0.4 and amplitudes[0] < 2.6 and amplitudes[1] == pytest.approx(6.1, rel=0.1)

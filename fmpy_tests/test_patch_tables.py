@@ -232,7 +232,7 @@ def test_a_table_has_blocks_of_touching_rows_that_move_smoothly(table):
     carried = np.maximum(found["load_share"][tread][1:], found["load_share"][tread][:-1])
     jumps = np.abs(moved) > 5e-3
     print(f"rows that jump: {np.sum(jumps)}, with {np.max(carried[jumps]):.3f} of the load at most")
-    assert np.all(moved[carried > 0.06] < 2e-5) and np.max(carried[jumps]) < 0.03 and np.sum(jumps) == 9
+    assert np.all(moved[carried > 0.06] < 3e-4) and np.max(carried[jumps]) < 0.03 and np.sum(jumps) == 9
     assert (table / "p.png").stat().st_size > 10_000
     told = list(csv.DictReader((table / "p_columns.csv").open()))
     assert [row["column"] for row in told] == list(found)

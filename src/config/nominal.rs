@@ -67,10 +67,10 @@ impl Config {
         if patch_rows::is_file(text) {
             return Ok(());
         }
-        match self.contact.shape {
-            ContactShape::Rows => self.patch_table().map(|_| ()),
-            _ if text.is_empty() => Ok(()),
-            _ => PatchTable::parse(text, self.contact.rows_load).map(|_| ()),
+        match (self.contact.shape.has_rows(), text.is_empty()) {
+            (true, _) => self.patch_table().map(|_| ()),
+            (false, true) => Ok(()),
+            (false, false) => PatchTable::parse(text, self.contact.rows_load).map(|_| ()),
         }
     }
 

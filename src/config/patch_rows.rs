@@ -395,6 +395,13 @@ impl GivenRow {
 mod tests {
     use super::*;
 
+    /// The only patch of a table.
+    fn parsed(text: &str, load: f64) -> PatchRows {
+        let table = PatchTable::parse(text, load).unwrap();
+        assert_eq!(table.shifts, [0.0]);
+        table.middle().clone()
+    }
+
     #[test]
     fn rows_on_lines_or_between_semicolons_share_the_load_by_their_ratios() {
         let found = parsed("position, half_length, load_share; -1e-3, 4e-3, 3; 1e-3, 5e-3, 1", 8e4);
@@ -405,7 +412,7 @@ mod tests {
         assert_eq!(found.rows, expected);
         assert_eq!((found.width(), found.half_length()), (4e-3, 5e-3));
         let lines = "\u{feff}load_share,unused,position,half_length\n3,,-1e-3,4e-3\n1,,1e-3,5e-3\n";
-        assert_eq!(PatchTable::parse(lines, 8e4), Ok(found));
+        assert_eq!(parsed(lines, 8e4), found);
     }
 
     #[test]
@@ -457,32 +464,32 @@ mod tests {
 
     #[test]
     fn a_missing_row_is_a_gap_and_rows_about_it_keep_load_and_width() {
-        let found = PatchTable::parse(&table(&[(-2.0, 1.0), (-1.0, 2.0), (1.0, 3.0), (2.0, 4.0)]), 1e5).unwrap();
+        let found = parsed(&table(&[(-2.0, 1.0), (-1.0, 2.0), (1.0, 3.0), (2.0, 4.0)]), 1e5);
         assert_eq!(sides(&found), [[1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [1.0, 0.0]]);
         assert_eq!(found.shapes.len(), 2);
         let loads: Vec<f64> = found.rows.iter().map(|row| (row.width * row.line_load).round()).collect();
         assert_eq!(loads, [1e4, 2e4, 3e4, 4e4]);
         // A row alone is as wide as the others, and distances that nearly agree are not gaps.
-        let alone = PatchTable::parse(&table(&[(-2.0, 1.0), (-1.0, 1.0), (0.0, 1.0), (30.0, 1.0)]), 1e5).unwrap();
+        let alone = parsed(&table(&[(-2.0, 1.0), (-1.0, 1.0), (0.0, 1.0), (30.0, 1.0)]), 1e5);
         assert_eq!(sides(&alone)[3], [1.0, 29.0]);
-        let uneven = PatchTable::parse(&table(&[(0.0, 1.0), (0.4, 1.0), (1.0, 1.0)]), 1e5).unwrap();
+        let uneven = parsed(&table(&[(0.0, 1.0), (0.4, 1.0), (1.0, 1.0)]), 1e5);
         assert_eq!(sides(&uneven), [[0.4, 0.0], [0.5, 0.0], [0.6, 0.0]]);
     }
 
     #[test]
     fn rows_with_widths_are_as_wide_as_they_say_and_loads_are_those_of_rows() {
         let text = "position,width,half_length,load_share; 0,1e-3,5e-3,1; 2e-3,3e-3,5e-3,1; 4e-3,1e-3,5e-3,2";
-        let found = PatchTable::parse(text, 8e4).unwrap();
+        let found = parsed(text, 8e4);
         assert_eq!(sides(&found), [[1.0, 0.0], [3.0, 0.0], [1.0, 0.0]]);
         let line_loads: Vec<f64> = found.rows.iter().map(|row| (1e-3 * row.line_load).round()).collect();
         assert_eq!(line_loads, [20e3, 6667.0, 40e3]);
-        let groove = PatchTable::parse(&text.replace("4e-3", "4.3e-3"), 8e4).unwrap();
+        let groove = parsed(&text.replace("4e-3", "4.3e-3"), 8e4);
         assert_eq!((sides(&groove)[2], groove.shapes.len()), ([1.0, 0.3], 2));
     }
 
     #[test]
     fn patches_grow_about_their_common_centre_of_load() {
-        let given = PatchTable::parse(&table(&[(-2.0, 1.0), (-1.0, 2.0), (1.0, 3.0), (2.0, 4.0)]), 1e5).unwrap();
+        let given = parsed(&table(&[(-2.0, 1.0), (-1.0, 2.0), (1.0, 3.0), (2.0, 4.0)]), 1e5);
         assert_eq!(given.grown(1.0), given);
         let grown = given.grown(0.5_f64.cbrt());
         assert!((rows::load(&grown.rows) / 5e4 - 1.0).abs() < 1e-14);

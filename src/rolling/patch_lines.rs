@@ -137,10 +137,14 @@ impl PatchLines {
             return Err(RowsError::Uneven);
         }
         let middle = table.middle();
-        let lines = Self::of(config, of_rows(middle), smooth, middle.on_wheel);
+        let first = of_rows(middle);
         let shifted = table.shifts.iter().zip(&table.patches).filter(|_| table.shifts.len() > 1);
-        let shifted = shifted.map(|(&shift, rows)| Shifted { shift, patch: of_rows(rows), on_wheel: rows.on_wheel });
-        Ok(Self { shifted: shifted.collect(), ..lines })
+        let beside = |(&shift, rows): (&f64, &PatchRows)| Shifted {
+            shift,
+            patch: of_rows(rows).moved_from(&first),
+            on_wheel: rows.on_wheel,
+        };
+        Ok(Self { shifted: shifted.map(beside).collect(), ..Self::of(config, first.clone(), smooth, middle.on_wheel) })
     }
 
     /// Lines of a `patch`; on surfaces that are not `smooth` they stay.
@@ -313,7 +317,7 @@ impl PatchLines {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::presets;
+    use crate::config::{ContactShape, presets};
     use crate::contact::line::kernel::logarithms;
     use nalgebra::{Cholesky, DMatrix};
 

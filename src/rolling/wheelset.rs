@@ -77,7 +77,7 @@ struct Stand {
 
 /// Where a wheel touches its rail in a wheelset that neither turns nor leans.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct TouchPoint {
     /// Lateral place of the centre of load from the middle of the wheelset \[m].
     arm: f64,
     /// Radius of rolling \[m].
@@ -93,7 +93,7 @@ pub struct Wheelset {
     side: Option<f64>,
     /// Shifts of the wheelset, ascending \[m], and where the wheel touches under them.
     shifts: Vec<f64>,
-    places: Vec<Place>,
+    points: Vec<TouchPoint>,
 }
 
 impl Wheelset {
@@ -107,22 +107,25 @@ impl Wheelset {
         let place = |(shift, centre, on_wheel): (f64, f64, OnWheel)| {
             let OnWheel { angle, radius, lateral } = if side.is_some() { on_wheel } else { OnWheel::default() };
             let arm = side.map_or(0.0, |side| side * config.wheelset.half_spacing + lateral.unwrap_or(centre));
-            (shift, Place { arm, radius: radius.unwrap_or(config.wheel.radius), angle })
+            (shift, TouchPoint { arm, radius: radius.unwrap_or(config.wheel.radius), angle })
         };
-        let (shifts, places) = patch.places().into_iter().map(place).unzip();
-        Self { side, shifts, places }
+        let (shifts, points) = patch.places().into_iter().map(place).unzip();
+        Self { side, shifts, points }
     }
 
     /// Where the wheel touches under a shift of the wheelset \[m].
-    fn place(&self, shift: f64) -> Place {
+    fn touch(&self, shift: f64) -> TouchPoint {
+        if let [always] = self.points[..] {
+            return always;
+        }
         let beside = piecewise::cubic(&self.shifts, shift);
-        let sum = |of: fn(&Place) -> f64| beside.iter().map(|(k, weight)| weight * of(&self.places[*k])).sum();
-        Place { arm: sum(|place| place.arm), radius: sum(|place| place.radius), angle: sum(|place| place.angle) }
+        let sum = |of: fn(&TouchPoint) -> f64| beside.iter().map(|(k, weight)| weight * of(&self.points[*k])).sum();
+        TouchPoint { arm: sum(|point| point.arm), radius: sum(|point| point.radius), angle: sum(|point| point.angle) }
     }
 
     /// Radius of rolling under a shift of the wheelset \[m].
     pub fn radius(&self, shift: f64) -> f64 {
-        self.place(shift).radius
+        self.touch(shift).radius
     }
 
     /// Refuses shifts for which there is no patch.
@@ -167,7 +170,7 @@ impl Wheelset {
     /// touches ahead of or behind its axle.
     fn stand(&self, pose: &Pose) -> Stand {
         let ([yaw, cos_yaw], [roll, cos_roll]) = (both(pose.yaw), both(pose.roll));
-        let Place { arm, radius, angle } = self.place(pose.lateral);
+        let TouchPoint { arm, radius, angle } = self.touch(pose.lateral);
         let [slope, rises] = both(angle - pose.roll);
         let axle = Vector3::new(-yaw * cos_roll, -roll, cos_yaw * cos_roll);
         let normal = Vector3::new(0.0, rises, -slope);

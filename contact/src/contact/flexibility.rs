@@ -294,14 +294,14 @@ impl InPatch<'_> {
 }
 
 /// Displacement of a tile by a force on another one, at a distance \[m], with Poisson's ratio \[1].
-type Kernel = fn(Tile, Tile, f64, f64) -> TileInfluence;
+type TileKernel = fn(Tile, Tile, f64, f64) -> TileInfluence;
 
 /// Effects of unit forces on `tiles` on each other by kernels; those `beside` the middle stand for a symmetric pair.
 fn tables<const K: usize>(
     tiles: &[Tile],
     material: HalfSpace,
     beside: &impl Fn(&Tile) -> bool,
-    kernels: [Kernel; K],
+    kernels: [TileKernel; K],
 ) -> [Vec<Between>; K] {
     let (projection, count) = (MomentProjection::new(), tiles.len());
     let mut tables = kernels.map(|_| vec![Between::default(); count * count]);

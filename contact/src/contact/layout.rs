@@ -23,6 +23,9 @@ const ROOM: f64 = 1.5;
 /// a logarithm is positive on patches shorter than four times that, by the kernel of nodes 4.48 times.
 const REACH: f64 = 0.5;
 
+/// Part of a change of the approach under a load on which a wheel stands that moves sideways \[1].
+const STANDING: f64 = 0.6;
+
 /// Size of the nodes of a line over those of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NodeSize {
@@ -85,6 +88,8 @@ pub struct PatchLayout {
     /// Load of the description \[N], and the approach that belongs to it \[m].
     load: f64,
     approach: f64,
+    /// Height by which the hub stands higher over the rail than the approach says \[m], see [`Self::moved_from`].
+    lifted: f64,
     /// Half of the width under it \[m].
     lateral: f64,
     /// Radius of the wheel \[m].
@@ -172,6 +177,7 @@ impl PatchLayout {
             centre: 0.0,
             load,
             approach: load / patches().map(softness).sum::<f64>(),
+            lifted: 0.0,
             lateral: 0.5 * rows.iter().map(|row| row.width).sum::<f64>(),
             radius,
             width,
@@ -228,6 +234,13 @@ impl PatchLayout {
         }
     }
 
+    /// The patch to which a wheel comes from another one by moving sideways: the elastic energy `2/5 P δ` that it has gained with the
+    /// approach δ is what load and lateral force have put in. By Betti's theorem the direction of the force is the mean of the
+    /// directions of its pressures, and the wheel moves along the plane normal to it but for `3/5` of the approach, on which it stands.
+    pub fn moved_from(self, other: &Self) -> Self {
+        Self { lifted: STANDING * (self.approach - other.approach), ..self }
+    }
+
     /// True if lines beside the middle stand for a symmetric pair.
     pub fn is_symmetric(&self) -> bool {
         self.symmetric
@@ -272,7 +285,7 @@ impl PatchLayout {
 
     /// Load \[N] under which the bodies approach each other by `approach` \[m]; zero where they are apart.
     pub fn load_under(&self, approach: f64) -> f64 {
-        let ratio = approach.max(0.0) / self.approach;
+        let ratio = (approach + self.lifted).max(0.0) / self.approach;
         self.load * ratio * ratio.sqrt()
     }
 
@@ -326,7 +339,7 @@ impl PatchLayout {
             share: width / self.width,
             half_length: self.room * half_length,
             size: None,
-            gap: approach - pressing * (2.0 * logarithm + 1.0),
+            gap: approach - self.lifted - pressing * (2.0 * logarithm + 1.0),
             kernel: LineKernel {
                 tangential,
                 normal: Logarithm { factor, reach: libm::log(0.5 * half_length) + logarithm },

@@ -121,6 +121,13 @@ struct Pass<'a> {
 }
 
 impl Pass<'_> {
+    /// Drift of the wheel at the contact. Surfaces that all stick, as they do at first, might lift a wheel off an inclined plane of
+    /// contact with any force.
+    fn drift(&self) -> Drift {
+        let drift = self.goal.drift(self.model);
+        if self.touching { drift } else { Drift { rise: 0.0, ..drift } }
+    }
+
     /// Returns the change of the contact forces relative to the load.
     fn run(
         &self,
@@ -140,14 +147,11 @@ impl Pass<'_> {
         ];
         model.bodies.free_responses(&operators, state, &td, streams, &mut workspace.free);
         let free = &workspace.free;
-        let drift = goal.drift(model);
-        // Surfaces that all stick at first may lift a wheel off an inclined plane of contact by any force.
-        let drift = if self.touching { drift } else { Drift { rise: 0.0, ..drift } };
         let contact = ContactStep {
             operators: &operators,
             free,
             rigid: goal.motions(model, trial, self.touching, state.rigid(), free[0].momentum),
-            drift,
+            drift: self.drift(),
             shift: goal.drive.lateral,
             radius: model.wheel.wheelset.radius(goal.drive.lateral),
             time: td,

@@ -36,6 +36,7 @@ impl PatchLayout {
             centre: sum(&|part| part.centre),
             load: sum(&|part| part.load),
             approach: sum(&|part| part.approach),
+            lifted: sum(&|part| part.lifted),
             lateral: sum(&|part| part.lateral),
             flexibility: Arc::new(PatchFlexibility::blend(&flexibilities)).into(),
             couplings: (0..first.len()).map(|i| sum(&|part| part.couplings[i])).collect(),
