@@ -32,6 +32,7 @@ def test_a_wheelset_on_springs_has_frequency_and_growth_of_linear_theory(fmu):
 
 def test_the_mirror_image_of_a_wheelset_is_its_mirror_image(fmu):
     runs = [example.hunting(fmu, example.Wheelset(75.0, y=sign * 2e-3, yaw=sign * 2e-3), 0.1) for sign in (1.0, -1.0)]
+    runs = [rows[:, :4] for rows in runs]  # all but those of the right wheel
     apart = np.abs(runs[0][:, 1:] + runs[1][:, 1:]).max(axis=0) / np.abs(runs[0][:, 1:]).max(axis=0)
     print(f"figure: hunting.mirror = {apart.max():.1e} < 1e-10\napart by {apart} of y, yaw, force, of which {np.abs(runs[0]).max(axis=0)[1:]}")
     assert apart.max() < 1e-9

@@ -183,6 +183,7 @@ def test_benchmark_a22_from_profiles_through_the_fmu_has_the_forces_of_contact(t
     """All 42 wheels, the flange included: shift, yaw and roll, speeds and vertical load are given, forces along the axes of the track are
     compared, over the friction that the load allows. Nothing is fitted. The plane in which CONTACT's forces act is that of one point, ours
     that of the load: on the flange CONTACT's plane is given, too."""
+    worst = {}
     for wheel in A22["wheels"]:
         sign, shift, theirs = 1.0 if wheel["side"] == "right" else -1.0, 1e-3 * wheel["ws"][1], wheel["patches"][0]
         roll, yaw, load, expected = wheel["ws"][3], wheel["ws"][4], theirs["FN"], np.array(wheel["F_track"])
@@ -210,10 +211,13 @@ def test_benchmark_a22_from_profiles_through_the_fmu_has_the_forces_of_contact(t
             errors.append((force - expected * [-1.0, -1.0, 1.0])[:2] / (0.3 * load))
         told = " ".join(f"{error:+.4f}" for error in np.ravel(errors))
         print(f"{wheel['side']:5} {1e3 * shift:4.1f} mm: along, across; in CONTACT's plane: {told}; pressure {1e-6 * peak / theirs['pmax'] - 1.0:+.3f}")
-        allowed = OF_ITS_POINT.get((wheel["side"], 1e3 * shift))
-        flange = sign * shift > 5.2e-3
-        assert np.max(np.abs(errors[0])) < (allowed or (0.022 if flange else 4e-3)) and np.max(np.abs(errors[1])) < (allowed or 3e-3)
-        assert peak == pytest.approx(1e6 * theirs["pmax"], rel=0.03 if flange else 0.01)
+        place = "point" if (wheel["side"], 1e3 * shift) in OF_ITS_POINT else "flange" if sign * shift > 5.2e-3 else "tread"
+        found = [np.max(np.abs(errors[0])), np.max(np.abs(errors[1])), abs(1e-6 * peak / theirs["pmax"] - 1.0)]
+        worst[place] = np.maximum(worst.get(place, 0.0), found)
+        assert np.max(np.abs(errors[0])) < OF_ITS_POINT.get((wheel["side"], 1e3 * shift), 1.0)
+    for place, found in worst.items():
+        print(f"figure: a22.{place} = {', '.join(f'{value:.4f}' for value in found)}")
+    assert np.all(worst["tread"] < [4e-3, 3e-3, 0.01]) and np.all(worst["flange"] < [0.022, 3e-3, 0.03]) and np.all(worst["point"] < [0.07, 0.07, 0.01])
 
 
 def test_a_table_has_blocks_of_touching_rows_that_move_smoothly(table):
@@ -232,7 +236,7 @@ def test_a_table_has_blocks_of_touching_rows_that_move_smoothly(table):
     carried = np.maximum(found["load_share"][tread][1:], found["load_share"][tread][:-1])
     jumps = np.abs(moved) > 5e-3
     print(f"rows that jump: {np.sum(jumps)}, with {np.max(carried[jumps]):.3f} of the load at most")
-    assert np.all(moved[carried > 0.06] < 3e-4) and np.max(carried[jumps]) < 0.03 and np.sum(jumps) == 9
+    assert np.all(moved[carried > 0.06] < 4e-4) and np.max(carried[jumps]) < 0.03 and np.sum(jumps) == 9
     assert (table / "p.png").stat().st_size > 10_000
     told = list(csv.DictReader((table / "p_columns.csv").open()))
     assert [row["column"] for row in told] == list(found)
