@@ -277,7 +277,7 @@ impl PatchLines {
     pub fn load_laid_out(&self, lines: &[Line]) -> f64 {
         match (&self.layouts, lines) {
             (Layouts::Constant(..), _) | (_, []) => 0.0,
-            (Layouts::Sized(patch), [first, ..]) => patch.load_of_share(first.layout.share),
+            (Layouts::Sized(patch), [first, ..]) => first.layout.size.map_or(0.0, |size| patch.load_of_size(size)),
         }
     }
 

@@ -289,9 +289,9 @@ impl PatchLayout {
         self.load * ratio * ratio.sqrt()
     }
 
-    /// Load for which a line with this `share` of the width, the first one, is laid out \[N].
-    pub fn load_of_share(&self, share: f64) -> f64 {
-        self.rows.first().map_or(0.0, |row| self.load * (share * self.width / row.width).powi(3))
+    /// Load for which a line with nodes of a `size` is laid out \[N], wherever the patch was.
+    pub fn load_of_size(&self, size: NodeSize) -> f64 {
+        self.load * (size.under_load / size.nominal).powi(3)
     }
 
     /// Lines under a load \[N] that move with the patch: under a small change of the load they keep their places in it.

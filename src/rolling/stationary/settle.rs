@@ -53,7 +53,7 @@ pub(super) fn settle(
         hub: HubForces { prescribed, ..HubForces::default() },
         wheel,
         rail,
-        lines: lines(model, load, thermal),
+        lines: lines(model, goal, load, thermal),
         available_friction: goal.drive.friction,
         tread_point: tuning.tread_point,
         ..State::default()
@@ -85,7 +85,7 @@ pub(super) fn settle(
 }
 
 /// Lines that touch and stick under about the `load` [N/m], with given temperatures.
-fn lines(model: &RollingModel, load: f64, thermal: Vec<Option<ThermalState>>) -> Vec<Line> {
+fn lines(model: &RollingModel, goal: &Goal, load: f64, thermal: Vec<Option<ThermalState>>) -> Vec<Line> {
     let mut temperatures = thermal.into_iter();
     let line = |_| Line {
         layout: LineLayout::default(),
@@ -95,7 +95,7 @@ fn lines(model: &RollingModel, load: f64, thermal: Vec<Option<ThermalState>>) ->
         thermal: temperatures.next().flatten(),
     };
     let mut lines: Vec<_> = (0..model.contact.patch.count).map(line).collect();
-    model.contact.patch.lay_out(load * model.wheel.width, &mut lines);
+    model.contact.patch.at(goal.drive.lateral).lay_out(load * model.wheel.width, &mut lines);
     lines.iter_mut().for_each(|line| line.contact = model.contact.hertzian_guess(load, &line.layout));
     thermal::share_growth(&mut lines);
     lines
