@@ -14,7 +14,9 @@ use super::super::wheelset::Pose;
 use super::goal::{Goal, Trial};
 use crate::axes::{Axis, PerAxis};
 use crate::config::Tuning;
-use crate::contact::{ActiveSetScratch, AxisDrive, ContactError, ContactState, Drift, Friction, FrictionLaw, Heating, LineLayout};
+use crate::contact::{
+    ActiveSetScratch, AxisDrive, ContactError, ContactState, Drift, Friction, FrictionLaw, Heating, LineLayout,
+};
 use crate::mechanics::response::Convection;
 use crate::multistep::{History, TimeDerivative};
 
