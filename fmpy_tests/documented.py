@@ -19,7 +19,7 @@ PROGRAM = re.compile(
     r"|(?:tools|docs)/(?!test_(?!times))[\w/-]+\.py|(?:packaging|examples)/[\w/-]+\.py +(?:--?\w|[a-z])"
 )
 # Pages that tell what was.
-PAST = ("CHANGELOG.md", "docs/history/")
+PAST = ("CHANGELOG.md",)
 PYTHON = ("python/src", "bench", "examples", "packaging", "tools", "docs", "site")
 RUST = ("examples", "bench", "benches", "src", "coach", "contact", "numerics", "thesis", "slave")
 SHELL = ("", "sh", "bash", "console", "text")

@@ -11,7 +11,7 @@ fn root() -> &'static Path {
 /// README and its like, and all pages under `docs`.
 fn documents() -> Vec<PathBuf> {
     let mut found = Vec::new();
-    for directory in ["", "docs", "docs/history", "docs/theory"] {
+    for directory in ["", "docs", "docs/theory"] {
         for entry in fs::read_dir(root().join(directory)).unwrap() {
             let path = entry.unwrap().path();
             if path.extension().is_some_and(|e| e == "md") {
