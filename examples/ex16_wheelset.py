@@ -111,7 +111,7 @@ def patches(folder, shifts=SHIFTS):
 
 def hunting(fmu, wheelset, duration=DURATION, step=STEP, ahead=True):
     """Rows of time, y, yaw, the lateral force of both wheels on the wheelset and that of the right one, and the lateral place of the load
-    on the right wheel. It ends early where the wheelset leaves the track.
+    on the right wheel. It ends early where the wheelset leaves the track; beyond the shifts of a table a wheel refuses its step.
 
     Contacts act on the wheelset with the forces of the middle of the coming step, extrapolated from the last two steps. Without
     `ahead` those of the last step are held, which damps the motion falsely."""
@@ -240,7 +240,7 @@ def arguments():
     parser.add_argument("--out", type=Path, default=Path("results"), help="directory for the plot")
     parser.add_argument("--speeds", type=float, nargs="+", default=SPEEDS, help="of the cones [m/s]; default: %(default)s")
     parser.add_argument("--duration", type=float, default=DURATION, help="s; default: %(default)s")
-    parser.add_argument("--brief", action="store_true", help="0.4 s of each, in seconds")
+    parser.add_argument("--brief", action="store_true", help="0.4 s of each cone, 0.2 s of the fastest profile")
     return parser.parse_args()
 
 

@@ -199,16 +199,18 @@ fn the_patch_of_a_shift_is_that_of_its_rows_alone() {
 /// A table is of the right wheel: the left one under the opposite pose has its mirror image.
 #[test]
 fn a_left_wheel_has_the_mirror_image_of_the_table() {
-    let shifts = [-4e-3, -2e-3, 0.0, 1e-3, 3e-3];
-    let [right, left] = [(WheelsetSide::Right, 1.0), (WheelsetSide::Left, -1.0)].map(|(side, sign)| {
-        wrench(&rolling(&on_table_of(side, &shifts), 4e-4, |drive| {
-            (drive.lateral, drive.yaw, drive.lateral_rate) = (sign * 1.4e-3, sign * 5e-4, sign * 2e-3);
-        }))
-    });
-    let mirror = [1.0, 1.0, -1.0, -1.0, -1.0, 1.0];
-    let missed = (0..6).map(|k| (right[k] - mirror[k] * left[k]).abs() / LIMIT).fold(0.0, f64::max);
-    println!("right {right:.1?}, left {left:.1?}, apart {missed:.1e}");
-    assert!(missed < 1e-9 && right[2].abs() > 5e-3 * LIMIT);
+    // Of the second table two patches are as far from the middle of the track.
+    for shifts in [&[-4e-3, -2e-3, 0.0, 1e-3, 3e-3][..], &[-1e-3, 1e-3, 3e-3]] {
+        let [right, left] = [(WheelsetSide::Right, 1.0), (WheelsetSide::Left, -1.0)].map(|(side, sign)| {
+            wrench(&rolling(&on_table_of(side, shifts), 4e-4, |drive| {
+                (drive.lateral, drive.yaw, drive.lateral_rate) = (sign * 1.4e-3, sign * 5e-4, sign * 2e-3);
+            }))
+        });
+        let mirror = [1.0, 1.0, -1.0, -1.0, -1.0, 1.0];
+        let missed = (0..6).map(|k| (right[k] - mirror[k] * left[k]).abs() / LIMIT).fold(0.0, f64::max);
+        println!("right {right:.1?}, left {left:.1?}, apart {missed:.1e}");
+        assert!(missed < 1e-9 && right[2].abs() > 5e-3 * LIMIT);
+    }
 }
 
 /// From patch to patch of the table, forces change without steps or kinks.
@@ -442,6 +444,24 @@ fn a_derivative_by_the_shift_is_that_of_two_states_beside_it() {
     let difference = (ends[1] - ends[0]) / (2.0 * size);
     println!("derivative {found:.6e}, difference {difference:.6e} N/m");
     assert!((found / difference - 1.0).abs() < 1e-3);
+    // At the end of the table it is that towards its middle.
+    let slope = |lateral: f64, sign: f64| {
+        let mut inputs = inputs;
+        inputs.drive.lateral = lateral;
+        let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
+        let found = simulation.difference(&direction).unwrap().quotient(|seen| seen.wheelset_force_z);
+        let at = |lateral: f64| {
+            inputs.drive.lateral = lateral;
+            Simulation::new(model.clone(), &inputs).unwrap().outputs().wheelset_force_z
+        };
+        let [end, within] = [lateral, lateral - sign * 1e-6].map(at);
+        (found, sign * (end - within) / 1e-6)
+    };
+    for (lateral, sign) in [(2e-3, 1.0), (-2e-3, -1.0)] {
+        let (found, difference) = slope(lateral, sign);
+        println!("at {lateral} m: derivative {found:.5e}, difference {difference:.5e} N/m");
+        assert!((found / difference - 1.0).abs() < 2e-2);
+    }
 }
 
 #[test]

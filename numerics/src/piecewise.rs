@@ -237,24 +237,24 @@ pub fn straight(points: &[[f64; 2]]) -> [f64; 2] {
 }
 
 /// Numbers and weights of the values at ascending nodes in that of the piecewise cubic function that has at every node the slope of
-/// the parabola through it and its neighbours, and at the ends that of the chord: without kinks. One node has its value everywhere.
+/// the chord between its neighbours, and at the ends that of the chord there: without kinks, and beyond the values beside by no more
+/// than .15 of the differences of their neighbours, however uneven the distances are. One node has its value everywhere.
 pub fn cubic(x: &[f64], at: f64) -> Vec<(usize, f64)> {
     let Some(last) = x.len().checked_sub(2) else { return (0..x.len()).map(|node| (node, 1.0)).collect() };
     let k = x.partition_point(|node| *node <= at).saturating_sub(1).min(last);
     let length = x[k + 1] - x[k];
     let t = ((at - x[k]) / length).clamp(0.0, 1.0);
     let rise = t * t * (3.0 - 2.0 * t);
-    let mut weights = vec![(k, 1.0 - rise), (k + 1, rise)];
+    let first = k.saturating_sub(1);
+    let mut weights: Vec<_> = (first..(k + 3).min(x.len())).map(|node| (node, 0.0)).collect();
+    let mut add = |node: usize, weight: f64| weights[node - first].1 += weight;
+    add(k, 1.0 - rise);
+    add(k + 1, rise);
     for (node, of_slope) in [(k, length * t * (1.0 - t) * (1.0 - t)), (k + 1, -length * t * t * (1.0 - t))] {
         let [before, after] = [node.saturating_sub(1), (node + 1).min(x.len() - 1)];
-        if before == node || after == node {
-            let by = of_slope / (x[after] - x[before]);
-            weights.extend([(before, -by), (after, by)]);
-            continue;
-        }
-        let [near, far] = [x[node] - x[before], x[after] - x[node]];
-        let by = of_slope / (near + far);
-        weights.extend([(before, -by * far / near), (node, by * (far / near - near / far)), (after, by * near / far)]);
+        let by = of_slope / (x[after] - x[before]);
+        add(before, -by);
+        add(after, by);
     }
     weights
 }
@@ -373,6 +373,25 @@ mod tests {
     /// A ramp to 2 at x = 1, a jump down to −1, level until x = 3.
     fn ramp_and_jump() -> Piecewise {
         Piecewise { x: vec![0.0, 1.0, 1.0, 3.0], value: vec![0.0, 2.0, -1.0, -1.0] }
+    }
+
+    #[test]
+    fn a_cubic_function_through_uneven_nodes_is_linear_where_they_are_has_no_kinks_and_stays_beside_its_values() {
+        let x = [0.0, 0.1, 3.0, 3.02, 4.0];
+        let value = |of: &dyn Fn(usize) -> f64, at: f64| cubic(&x, at).iter().map(|(k, by)| by * of(*k)).sum::<f64>();
+        let jumps = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+        for i in 0..=400 {
+            let at = 0.01 * f64::from(i);
+            assert!((value(&|k| 2.0 - 3.0 * x[k], at) - (2.0 - 3.0 * at)).abs() < 1e-12);
+            assert!(value(&jumps, at).abs() < 1.3);
+        }
+        for (node, place) in x.iter().enumerate().take(4).skip(1) {
+            let (now, h) = (value(&jumps, *place), 1e-7);
+            assert_eq!(now, jumps(node));
+            let slopes = [now - value(&jumps, place - h), value(&jumps, place + h) - now].map(|rise| rise / h);
+            assert!((slopes[0] - slopes[1]).abs() < 1e-2, "{slopes:?}");
+        }
+        assert_eq!(cubic(&[5.0], 7.0), [(0, 1.0)]);
     }
 
     #[test]

@@ -18,6 +18,8 @@ const SHIFT: &str = "shift";
 const STEEPEST: f64 = 1.5;
 /// Largest distance from the middle, half-length and width [m].
 const LARGEST: [f64; 3] = [0.5, 0.1, 0.2];
+/// Largest shift, that of the input \[m].
+const FARTHEST_SHIFT: f64 = 0.1;
 /// Largest number of rows.
 const MOST_ROWS: usize = 1000;
 /// Distances of rows without widths, over the smallest one: up to the first one rows touch, from the second one a gap
@@ -190,6 +192,8 @@ pub struct PatchTable {
     pub shifts: Vec<f64>,
     /// The patches under these, with as many rows each.
     pub patches: Vec<PatchRows>,
+    /// Number of the one of the wheelset in the middle of the track, or of the nearest one.
+    middle: usize,
 }
 
 impl PatchTable {
@@ -240,22 +244,23 @@ impl PatchTable {
             let shift = format!("{:?}", other[0].shift.unwrap_or(0.0));
             return Err(RowsError::Blocks { shift, rows: other.len(), first: count });
         }
+        let shifts: Vec<f64> = blocks.iter().map(|block| block[0].shift.unwrap_or(0.0)).collect();
+        let nearest = (0..shifts.len()).min_by(|a, b| shifts[*a].abs().total_cmp(&shifts[*b].abs()));
         Ok(Self {
-            shifts: blocks.iter().map(|block| block[0].shift.unwrap_or(0.0)).collect(),
+            middle: nearest.unwrap_or(0),
+            shifts,
             patches: blocks.iter().map(|block| PatchRows::new(block, load)).collect::<Result<_, _>>()?,
         })
     }
 
     /// The patch of the wheelset in the middle of the track, or the nearest one.
     pub fn middle(&self) -> &PatchRows {
-        let place = |k: &usize| self.shifts[*k].abs();
-        let nearest = (0..self.shifts.len()).min_by(|a, b| place(a).total_cmp(&place(b)));
-        &self.patches[nearest.unwrap_or(0)]
+        &self.patches[self.middle]
     }
 
     /// Patches with `scale` times their lengths, see [`PatchRows::grown`].
     pub fn grown(&self, scale: f64) -> Self {
-        Self { shifts: self.shifts.clone(), patches: self.patches.iter().map(|patch| patch.grown(scale)).collect() }
+        Self { patches: self.patches.iter().map(|patch| patch.grown(scale)).collect(), ..self.clone() }
     }
 
     /// Those of a left wheel, of which these are the mirror image.
@@ -263,6 +268,7 @@ impl PatchTable {
         Self {
             shifts: self.shifts.iter().rev().map(|shift| -shift).collect(),
             patches: self.patches.iter().rev().map(PatchRows::mirrored).collect(),
+            middle: self.patches.len() - 1 - self.middle,
         }
     }
 }
@@ -350,10 +356,11 @@ impl GivenRow {
     fn check(&self, before: Option<f64>) -> Result<(), String> {
         let Self { position, half_length, load_share, .. } = *self;
         let [farthest, longest, widest] = LARGEST;
-        if position.abs() > farthest {
-            return Err(format!(
-                "position = {position} m is outside -{farthest} to {farthest} m; columns are in metres"
-            ));
+        let places = [("position", Some(position), farthest), ("lateral", self.on_wheel[2], farthest)];
+        for (name, value, most) in places.into_iter().chain([(SHIFT, self.shift, FARTHEST_SHIFT)]) {
+            if let Some(value) = value.filter(|value| value.abs() > most) {
+                return Err(format!("{name} = {value} m is outside -{most} to {most} m; columns are in metres"));
+            }
         }
         if !(half_length > 0.0 && half_length <= longest) {
             return Err(format!(
@@ -378,9 +385,6 @@ impl GivenRow {
             return Err(format!(
                 "radius = {radius} m is outside 0 (excluded) to 10 m; it is that of rolling, in metres"
             ));
-        }
-        if let Some(lateral) = self.on_wheel[2].filter(|lateral| lateral.abs() > farthest) {
-            return Err(format!("lateral = {lateral} m is outside -{farthest} to {farthest} m; columns are in metres"));
         }
         match before.filter(|before| *before >= position) {
             Some(before) => {
@@ -428,6 +432,7 @@ mod tests {
             (format!("{head}0,5,1"), &["line 2", "half_length = 5 m", "in metres"]),
             (format!("{head}-10,5e-3,1"), &["line 2", "position = -10 m", "in metres"]),
             (format!("{head}0,0,1"), &["line 2", "half_length = 0 m", "left out"]),
+            (format!("shift,{head}-7,0,5e-3,1"), &["line 2", "shift = -7 m", "in metres"]),
             (format!("{head}0,5e-3,-1"), &["line 2", "load_share = -1", "positive"]),
         ] {
             let message = PatchTable::parse(&text, 1e5).unwrap_err().to_string();

@@ -40,21 +40,20 @@ pub struct PatchLines {
     pub count: usize,
     /// True if lines beside the middle stand for a symmetric pair.
     pub symmetric: bool,
-    /// Lateral position of the centre of load, about which the patch grows and shrinks \[m].
-    pub centre: f64,
-    /// Place of the centre of load on the wheel.
-    pub on_wheel: OnWheel,
-    /// Patches under other shifts of the wheelset, ascending; empty: the patch stays.
+    /// Lateral position of the centre of load, about which the patch grows and shrinks, of a patch that stays \[m].
+    centre: f64,
+    /// Place of the centre of load on the wheel, of a patch that stays.
+    on_wheel: OnWheel,
+    /// Free widths between every line and the one before it under the nominal load, of a patch that stays \[m]; none where all touch.
+    gaps: Vec<f64>,
+    /// Shifts of the wheelset for which there are patches, ascending \[m], and these; empty: the patch stays.
+    shifts: Vec<f64>,
     shifted: Vec<Shifted>,
-    /// Free widths between every line and the one before it under the nominal load \[m]; none where all touch.
-    pub gaps: Vec<f64>,
 }
 
 /// Patch under a shift of the wheelset.
 #[derive(Clone, Debug)]
 struct Shifted {
-    /// The shift \[m].
-    shift: f64,
     patch: PatchLayout,
     on_wheel: OnWheel,
 }
@@ -138,13 +137,12 @@ impl PatchLines {
         }
         let middle = table.middle();
         let first = of_rows(middle);
-        let shifted = table.shifts.iter().zip(&table.patches).filter(|_| table.shifts.len() > 1);
-        let beside = |(&shift, rows): (&f64, &PatchRows)| Shifted {
-            shift,
-            patch: of_rows(rows).moved_from(&first),
-            on_wheel: rows.on_wheel,
-        };
-        Ok(Self { shifted: shifted.map(beside).collect(), ..Self::of(config, first.clone(), smooth, middle.on_wheel) })
+        let lines = Self::of(config, first.clone(), smooth, middle.on_wheel);
+        if table.shifts.len() == 1 {
+            return Ok(lines);
+        }
+        let beside = |rows: &PatchRows| Shifted { patch: of_rows(rows).moved_from(&first), on_wheel: rows.on_wheel };
+        Ok(Self { shifted: table.patches.iter().map(beside).collect(), shifts: table.shifts, ..lines })
     }
 
     /// Lines of a `patch`; on surfaces that are not `smooth` they stay.
@@ -158,16 +156,26 @@ impl PatchLines {
                 Layouts::Constant(patch.staying(config.model.nominal_load, longest_patch(config)), flexibility)
             }
         };
-        Self { layouts, nodes: LineNodes::Fixed, count, symmetric, centre, on_wheel, shifted: Vec::new(), gaps }
+        Self {
+            layouts,
+            nodes: LineNodes::Fixed,
+            count,
+            symmetric,
+            centre,
+            on_wheel,
+            gaps,
+            shifts: Vec::new(),
+            shifted: Vec::new(),
+        }
     }
 
     /// Places of the centre of load over the shift of the wheelset \[m]: the shift, its lateral position \[m] and its place on the
     /// wheel; one alone holds for all shifts.
     pub fn places(&self) -> Vec<(f64, f64, OnWheel)> {
-        let of = |shifted: &Shifted| (shifted.shift, shifted.patch.centre(), shifted.on_wheel);
+        let of = |(&shift, shifted): (&f64, &Shifted)| (shift, shifted.patch.centre(), shifted.on_wheel);
         match self.shifted.is_empty() {
             true => vec![(0.0, self.centre, self.on_wheel)],
-            false => self.shifted.iter().map(of).collect(),
+            false => self.shifts.iter().zip(&self.shifted).map(of).collect(),
         }
     }
 
@@ -176,18 +184,18 @@ impl PatchLines {
         if self.shifted.is_empty() {
             return Cow::Borrowed(self);
         }
-        let parts: Vec<_> =
-            self.beside(shift).into_iter().map(|(k, weight)| (&self.shifted[k].patch, weight)).collect();
-        let patch = PatchLayout::blend(&parts);
+        let weights = piecewise::cubic(&self.shifts, shift);
+        let parts: Vec<_> = weights.into_iter().map(|(k, weight)| (&self.shifted[k].patch, weight)).collect();
         Cow::Owned(Self {
-            layouts: Layouts::Sized(Box::new(patch.clone())),
+            layouts: Layouts::Sized(Box::new(PatchLayout::blend(&parts))),
             nodes: self.nodes,
             count: self.count,
             symmetric: self.symmetric,
-            centre: patch.centre(),
+            centre: self.centre(shift),
             on_wheel: self.on_wheel,
+            gaps: self.gaps(shift),
+            shifts: Vec::new(),
             shifted: Vec::new(),
-            gaps: patch.gaps().to_vec(),
         })
     }
 
@@ -195,21 +203,22 @@ impl PatchLines {
     pub fn centre(&self, shift: f64) -> f64 {
         match self.shifted.is_empty() {
             true => self.centre,
-            false => self.beside(shift).iter().map(|(k, weight)| weight * self.shifted[*k].patch.centre()).sum(),
+            false => self.sum(shift, |patch| patch.centre()),
         }
     }
 
-    /// Patches of the table that count under a shift \[m], each once, and their weights.
-    fn beside(&self, shift: f64) -> Vec<(usize, f64)> {
-        let shifts: Vec<f64> = self.shifted.iter().map(|shifted| shifted.shift).collect();
-        let mut beside: Vec<(usize, f64)> = Vec::new();
-        for (k, weight) in piecewise::cubic(&shifts, shift) {
-            match beside.iter_mut().find(|(other, _)| *other == k) {
-                Some((_, sum)) => *sum += weight,
-                None => beside.push((k, weight)),
-            }
+    /// Free widths between every line and the one before it under the nominal load and a shift of the wheelset \[m]; none where all
+    /// touch.
+    pub fn gaps(&self, shift: f64) -> Vec<f64> {
+        match self.shifted.is_empty() {
+            true => self.gaps.clone(),
+            false => (0..self.count).map(|k| self.sum(shift, |patch| patch.gaps()[k]).max(0.0)).collect(),
         }
-        beside
+    }
+
+    /// Value of the patch under a shift of the wheelset \[m], given that of every patch of the table.
+    fn sum(&self, shift: f64, of: impl Fn(&PatchLayout) -> f64) -> f64 {
+        piecewise::cubic(&self.shifts, shift).iter().map(|(k, weight)| weight * of(&self.shifted[*k].patch)).sum()
     }
 
     /// Lines with given shares of the width and one flexibility.
@@ -224,8 +233,9 @@ impl PatchLines {
             symmetric: false,
             centre: 0.0,
             on_wheel: OnWheel::default(),
-            shifted: Vec::new(),
             gaps: Vec::new(),
+            shifts: Vec::new(),
+            shifted: Vec::new(),
         }
     }
 

@@ -121,7 +121,7 @@ pub fn difference(
         let mut beyond_range = false;
         let mut ends = [-1.0, 1.0].map(|sign| {
             let end = repeat(model, tuning, origin, &direction.away(inputs, sign * width), workspace);
-            beyond_range |= matches!(end, Err(StepError::Input(_)));
+            beyond_range |= matches!(end, Err(StepError::Input(_) | StepError::Shifted { .. }));
             end.ok()
                 .filter(|end| end.clock.decisions == state.clock.decisions)
                 .map(|end| Box::new(observe_all(model, &end)))

@@ -28,7 +28,7 @@ pub fn spread(model: &RollingModel, state: &State, dt: f64, next: &mut State) ->
     let widths: Vec<f64> = next.lines.iter().enumerate().map(width).collect();
     let cells = match in_the_middle(0, &next.lines[0]) {
         true => LateralCells::half(&widths, &[])?,
-        false => LateralCells::side_by_side(&widths)?.apart(&model.contact.patch.gaps),
+        false => LateralCells::side_by_side(&widths)?.apart(&model.contact.patch.gaps(next.motion.pose.lateral)),
     };
     let diffusivity = model.narrowing(next).powi(2) * Isotropic::from(&model.config.material).diffusivity();
     let hottest = next.lines.iter().map(Line::hottest);

@@ -234,9 +234,8 @@ impl PatchLayout {
         }
     }
 
-    /// The patch to which a wheel comes from another one by moving sideways: the elastic energy `2/5 P δ` that it has gained with the
-    /// approach δ is what load and lateral force have put in. By Betti's theorem the direction of the force is the mean of the
-    /// directions of its pressures, and the wheel moves along the plane normal to it but for `3/5` of the approach, on which it stands.
+    /// The patch to which a wheel comes from another one by moving sideways. Its elastic energy has become larger by what load and
+    /// lateral force have put in (`docs/theory/sideways.md`, section 6).
     pub fn moved_from(self, other: &Self) -> Self {
         Self { lifted: STANDING * (self.approach - other.approach), ..self }
     }

@@ -122,30 +122,26 @@ def second_place(patch: Strips) -> int | None:
 
 def cuts(shifts: np.ndarray, patches: list[Strips], count: int) -> list[np.ndarray]:
     """Limits of `count` rows in the measure of each patch: in one place all are as large as each other. In two places each row has one of
-    them, the same under all shifts that follow each other. Before the shift at which a place appears, and behind that at which it
-    vanishes, its rows are next to nothing at that end of the other one, and grow within `FADING`: rows go over with nearly no load."""
+    them, half of the rows each. Beside the shifts with two places rows have sizes as their loads there, those of a place that comes or goes
+    next to none, and become equal within `FADING`: they go over from place to place with nearly no load."""
     measures, begins = [measure(patch) for patch in patches], [second_place(patch) for patch in patches]
     two = np.array([begin is not None for begin in begins])
-    found = [np.linspace(0.0, whole[-1], count + 1) for whole in measures]
     runs = np.flatnonzero(np.diff(np.concatenate(([0], two.astype(int), [0])))).reshape(-1, 2)
-    sizes = np.ones((len(patches), count))
+    sizes, gauge = np.ones((len(patches), count)), count // 2
+    if len(patches) == 1 and two[0]:  # as many rows as belong to each place
+        gauge = int(np.clip(round(count * measures[0][begins[0]] / measures[0][-1]), 1, count - 1))
+    of_places = lambda part: np.repeat([part / gauge, (1.0 - part) / (count - gauge)], [gauge, count - gauge])
     for first, last in runs:
-        shares = [whole[begin] / whole[-1] for whole, begin in zip(measures[first:last], begins[first:last])]
-        # One shift alone: as many rows as belong to each place; several ones: half of them, since each place is the larger one at its time.
-        gauge = count // 2 if last - first > 1 else int(np.clip(round(count * shares[0]), 1, count - 1))
         for k in range(first, last):
-            middle, end = measures[k][begins[k]], measures[k][-1]
-            found[k] = np.concatenate((np.linspace(0.0, middle, gauge + 1), np.linspace(middle, end, count - gauge + 1)[1:]))
-        # Beside the run, on its side of another one: the place that is missing there is that with the smaller load next to it.
-        for beside, step in ((first - 1, -1), (last, 1)):
-            new = slice(0, gauge) if shares[0 if step < 0 else -1] < 0.5 else slice(gauge, count)
+            sizes[k] = of_places(measures[k][begins[k]] / measures[k][-1])
+        for end, beside, step in ((first, first - 1, -1), (last - 1, last, 1)):
+            loads = of_places(patches[end].mean(np.arange(len(patches[end].peak)) < begins[end]))
+            there = np.maximum(loads / np.max(loads), LEAST_ROW)
             while 0 <= beside < len(patches) and not two[beside]:
-                away = abs(shifts[beside] - shifts[first if step < 0 else last - 1]) / FADING
-                sizes[beside, new] = np.minimum(sizes[beside, new], max(LEAST_ROW, min(away, 1.0) ** 2 * (3.0 - 2.0 * min(away, 1.0))))
+                away = min(abs(shifts[beside] - shifts[end]) / FADING, 1.0)
+                sizes[beside] = np.minimum(sizes[beside], there + (1.0 - there) * away**2 * (3.0 - 2.0 * away))
                 beside += step
-    for k in np.flatnonzero(~two):
-        found[k] = measures[k][-1] * np.append(0.0, np.cumsum(sizes[k]) / np.sum(sizes[k]))
-    return found
+    return [whole[-1] * np.append(0.0, np.cumsum(size) / np.sum(size)) for whole, size in zip(measures, sizes)]
 
 
 def rows(patch: Strips, cuts: np.ndarray) -> Rows:
@@ -175,7 +171,7 @@ class Over(NamedTuple):
         return np.array([patch.mean(patch.radius) for patch in self.patches])
 
     def rows(self, count: int) -> list[Rows]:
-        """All patches in `count` rows, which move smoothly with the shift."""
+        """All patches in `count` rows, which move smoothly with the shift where the contact does."""
         return [rows(patch, limits) for patch, limits in zip(self.patches, cuts(self.shifts, self.patches, count))]
 
 

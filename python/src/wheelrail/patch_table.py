@@ -31,6 +31,7 @@ COLUMNS = (
 )  # fmt: skip
 MOST_SHIFTS, MOST_ROWS = 1000, 13
 WIDEST = 50.0  # mm, of shifts
+JUMP, BEARING = 4e-3, 0.03  # m that a row moves from shift to shift, and its share of the load, of which a word is said
 AMPLITUDES = 1e-3 * np.arange(1, 11)  # m, of which the conicity is told
 # Options with a number: name, default, range, factor to SI, and words.
 NUMBERS = (
@@ -52,6 +53,15 @@ def write(path: Path, found: Over, count: int, words: str) -> None:
             for row in zip(*patch):
                 print(",".join(f"{value:.9g}" for value in (shift, *row)), file=file)
     write_rows(path.with_name(f"{path.stem}_columns.csv"), [("column", "unit", "description"), *COLUMNS])
+
+
+def jumps(found: Over, count: int) -> list[tuple[float, float]]:
+    """Pairs of neighbouring shifts [m] between which rows with more than `BEARING` of the load move by more than `JUMP`: the FMU would draw
+    them straight across."""
+    table = found.rows(count)
+    places, shares = np.array([rows.position for rows in table]), np.array([rows.load_share for rows in table])
+    moved = (np.abs(np.diff(places, axis=0)) > JUMP) & (np.minimum(shares[1:], shares[:-1]) > BEARING)
+    return [(found.shifts[k], found.shifts[k + 1]) for k in np.flatnonzero(np.any(moved, axis=1))]
 
 
 def shifts_of(text: str) -> np.ndarray:
@@ -123,6 +133,8 @@ def run(options: Namespace) -> None:
     for name, values in zip(("rigid", "of the centre of load"), known or ()):
         told = ", ".join(f"{value:.3f} ({1e3 * a:g} mm)" for a, value in zip(amplitudes, values) if np.isfinite(value))
         print(f"equivalent conicity, {name}: {told or 'none at these shifts'}")
+    for low, high in jumps(found, options.rows):
+        print(f"from {1e3 * low:g} to {1e3 * high:g} mm rows that bear jump by more than {1e3 * JUMP:g} mm: add shifts in between")
     words = f"{options.wheel.name} on {options.rail.name}, gauge {options.gauge:g} m, contact.rows_load = {options.load:g} N, wheel.radius = {options.radius:g} m"
     write(options.out, found, options.rows, words)
     draw(options.out.with_suffix(".png"), found, options.rows, amplitudes, known, words)
