@@ -298,7 +298,7 @@ LIMIT_SPEEDS = (10.0, 5.0, 2.0, 1.0)  # m/s
 EXPLICIT = ("Jacobi", "Gauss-Seidel")
 SHOWN = 1e-3  # s, step of the runs whose force is drawn
 BRIEF = {
-    "STEPS": (4e-3,), "REFERENCE_STEP": 1e-3, "SHOWN": 4e-3, "ENERGIES": (1e-1,), "LIMIT_SPEEDS": (10.0,)
+    "STEPS": (4e-3,), "REFERENCE_STEP": 2e-3, "SHOWN": 4e-3, "ENERGIES": (1e-1,), "LIMIT_SPEEDS": (10.0,)
 }  # fmt: skip
 
 

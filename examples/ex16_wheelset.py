@@ -5,7 +5,7 @@
 A wheelset runs along straight track, held by springs in a frame that moves with constant speed. Below the critical speed its motion dies
 out, above it grows to a limit cycle. First wheels are cones: the table compares frequency and growth with those of linear theory, whose
 creep coefficients are measured on the same FMU. Then they have the profile S1002 on rails 60E1: patch, angle and radius are those of a
-table over the shift, which the example makes as `wheelrail patch` does, and the flange ends the motion.
+table over the shift, which the example makes from their files, and the flange ends the motion.
 
 The wheelset is the master's: mass and springs. Both wheels are told its pose (`inputs`) and answer with force and moment about its
 middle, as docs/coupling.md says. Replace `Wheelset.step` to couple a vehicle of your own. Left out is that the wheelset leans.
@@ -27,7 +27,7 @@ STEP, DURATION = 1e-3, 2.0  # s
 SPEEDS = (50.0, 65.0, 75.0)  # of the cones [m/s]
 FAST = (50.0, 60.0, 70.0)  # of the profiles [m/s]
 PROFILES = Path(__file__).parent / "profiles"
-SHIFTS, LINES = "-6.2:6.2:0.1", 9  # of the table [mm], and rows of each
+SHIFTS, COARSE, LINES = "-6.2:6.2:0.1", "-6.2:6.2:0.4", 9  # of the table, and with --brief [mm], and rows of each
 FAR = 4e-3  # shift at the start on profiles [m]
 LOAD = 100e3  # vertical load of a wheel [N]
 FIXED = {
@@ -225,10 +225,10 @@ def run_profiles(fmu, speeds, duration, table):
 def run(options):
     """All speeds, the tables and the picture."""
     options.out.mkdir(parents=True, exist_ok=True)
-    duration = 0.2 if options.brief else options.duration
+    duration, shifts = (0.1, COARSE) if options.brief else (options.duration, SHIFTS)
     with Fmu(options.fmu) as fmu:
         cones = run_cones(fmu, options.speeds, 0.4 if options.brief else options.duration)
-        profiles = run_profiles(fmu, FAST[-1:] if options.brief else FAST, duration, patches(options.out))
+        profiles = run_profiles(fmu, FAST[-1:] if options.brief else FAST, duration, patches(options.out, shifts))
     plot(options.out / "hunting.png", cones, profiles)
     print(f"\nwritten: {options.out / 'hunting.png'}")
 
@@ -240,7 +240,7 @@ def arguments():
     parser.add_argument("--out", type=Path, default=Path("results"), help="directory for the plot")
     parser.add_argument("--speeds", type=float, nargs="+", default=SPEEDS, help="of the cones [m/s]; default: %(default)s")
     parser.add_argument("--duration", type=float, default=DURATION, help="s; default: %(default)s")
-    parser.add_argument("--brief", action="store_true", help="0.4 s of each cone, 0.2 s of the fastest profile")
+    parser.add_argument("--brief", action="store_true", help="0.4 s of each cone, 0.1 s of the fastest profile")
     return parser.parse_args()
 
 
