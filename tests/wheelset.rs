@@ -196,6 +196,26 @@ fn the_patch_of_a_shift_is_that_of_its_rows_alone() {
     figure("wheelset.table", &[most]);
 }
 
+/// What a contact gains in elastic energy from patch to patch, load and lateral force put in, there and back; friction of .02 hides
+/// nothing.
+#[test]
+fn a_wheel_that_moves_to_another_patch_gains_the_energy_that_is_put_in() {
+    let model = on_table(&[-2e-3, -1e-3, 0.0, 1e-3, 2e-3]);
+    for (from, to) in [(0.0, 1.8e-3), (1.8e-3, 0.0), (0.0, -1.8e-3)] {
+        let mut inputs = prescribed(&model, V, 0.0);
+        (inputs.drive.lateral, inputs.drive.friction) = (from, 0.02);
+        let time = 0.2;
+        let seen = run(&model, inputs, (1e-3, 200), |inputs, t| {
+            let s = (t / time).clamp(0.0, 1.0);
+            inputs.drive.lateral = from + (to - from) * s * s * (3.0 - 2.0 * s);
+            inputs.drive.lateral_rate = (to - from) * 6.0 * s * (1.0 - s) / time;
+        });
+        let residual = seen[200].energy_residual;
+        println!("from {from} to {to} m: {residual:.1e} of the energy is missing");
+        assert!(residual.abs() < 1.5e-3);
+    }
+}
+
 /// A table is of the right wheel: the left one under the opposite pose has its mirror image.
 #[test]
 fn a_left_wheel_has_the_mirror_image_of_the_table() {
