@@ -74,7 +74,7 @@ pub const ALL: &[Mistake] = &[
         place: "[A] Fig. 12",
         says: "excitation `V/λ` in rad/s",
         right: "`2πV/λ`",
-        proof: "The peak lies at the contact resonance, 2922 rad/s undamped; `V/λ` is {a12.peak_without_2pi .0} 1/s there. Recomputed under A 12.",
+        proof: "The peak lies at the contact resonance, 2922 rad/s undamped; `V/λ` is {a12.peak_without_2pi .0} 1/s there.",
     },
     Mistake {
         kind: Kind::Thesis,
@@ -89,7 +89,7 @@ pub const ALL: &[Mistake] = &[
         place: "[C] Fig. 12",
         says: "mean of the rail 4.45e-9 K",
         right: "{c14.rail .2e} K, 2.5 times as much",
-        proof: "What the rail takes, 0.114 W/m, leaves with its stream: its mean is that over twice `ρc V H`. Recomputed under C 14.",
+        proof: "What the rail takes, 0.114 W/m, leaves with its stream: its mean is that over twice `ρc V H`.",
     },
     Mistake {
         kind: Kind::Thesis,
@@ -169,7 +169,7 @@ pub const ALL: &[Mistake] = &[
         place: "[D] Fig. 8",
         says: "quasi-static for `|ξ|` < 4e-3 1/s",
         right: "for `|dξ/dt|` < 4e-3 1/s",
-        proof: "The unit is that of a rate. Recomputed under D 7–8.",
+        proof: "The unit is that of a rate.",
     },
     Mistake {
         kind: Kind::Text,
@@ -200,6 +200,6 @@ pub const ALL: &[Mistake] = &[
         place: "[B] Fig. 15",
         says: "thermal contact is perfect above 1e7 W/(m² K)",
         right: "{b15.left*100 .0} % of the wheel's temperature are left to the resistance there, 5 % at {b15.threshold .0e}",
-        proof: "The thesis reads a saturation off its figure and names no measure, so this is no error. Recomputed under B 15.",
+        proof: "The thesis reads a saturation off its figure and names no measure, so this is no error.",
     },
 ];
