@@ -30,8 +30,7 @@ impl Kind {
         match self {
             Self::Thesis => "The thesis says so, in numbers or more than once; a recomputation shows otherwise.",
             Self::Text => {
-                "A letter, sign or dot; other places of the thesis show what is meant. Whether it stands so in the thesis or was lost when \
-                 the thesis became the text at hand is not known."
+                "A letter, sign or dot, in the thesis or lost when it became the text at hand; other places show what is meant."
             }
             Self::Ours => "The thesis contradicts nothing that it says; what differs is a measure that we chose.",
         }
@@ -67,31 +66,30 @@ pub const ALL: &[Mistake] = &[
         place: "[A] § 3.2",
         says: "a plate five times as large raises the pressure from 96.8 to 99.7 % of Hertz', as it is nearer to a half-plane",
         right: "it changes it by less than 0.1 %",
-        proof: "The plate is twenty half-widths high. The product has {a.pressure.small .4} and {a.pressure.large .4} of Hertz, and each way to read the \
-                pressure off the thesis's own method is the same on both plates, while readings and meshes differ by 15 %. Recomputed under A text.",
+        proof: "The plate is twenty half-widths high. The product has {a.pressure.small .4} and {a.pressure.large .4} of Hertz; readings and meshes of the \
+                thesis's method differ by 15 %. Recomputed under A text.",
     },
     Mistake {
         kind: Kind::Thesis,
         place: "[A] Fig. 12",
         says: "excitation `V/λ` in rad/s",
         right: "`2πV/λ`",
-        proof: "The peak lies at the contact resonance, 2922 rad/s undamped; `V/λ` is {a12.peak_without_2pi .0} 1/s there. Recomputed under A 12.",
+        proof: "The peak lies at the contact resonance, 2922 rad/s undamped; `V/λ` is {a12.peak_without_2pi .0} 1/s there.",
     },
     Mistake {
         kind: Kind::Thesis,
         place: "[C] Fig. 12",
         says: "mean of the wheel 2.26e-6 K",
         right: "{c14.wheel .1e} K, 33 times as much",
-        proof: "The annulus conducts `Q ln(r/r_i)/2πk` to its hub, so that 2.26e-6 K would be 0.6 % of the heat that friction puts into the wheel; \
-                the product and the scheme of the thesis on ever shorter edges agree, two independent ways. Recomputed under C 12: linear \
-                triangles lose as much (B 5 to B 7), the quadratic ones described do not.",
+        proof: "The annulus conducts `Q ln(r/r_i)/2πk` to its hub: 2.26e-6 K would be 0.6 % of the heat of friction. Product and scheme of the thesis on \
+                ever shorter edges agree. Recomputed under C 12: linear triangles lose as much, quadratic ones do not.",
     },
     Mistake {
         kind: Kind::Thesis,
         place: "[C] Fig. 12",
         says: "mean of the rail 4.45e-9 K",
         right: "{c14.rail .2e} K, 2.5 times as much",
-        proof: "What the rail takes, 0.114 W/m, leaves with its stream: its mean is that over twice `ρc V H`. Recomputed under C 14.",
+        proof: "What the rail takes, 0.114 W/m, leaves with its stream: its mean is that over twice `ρc V H`.",
     },
     Mistake {
         kind: Kind::Thesis,
@@ -99,117 +97,109 @@ pub const ALL: &[Mistake] = &[
         says: "creepage 1.9e-4 means 48 % of the limit",
         right: "{closed.d18.share*100 .1} % after Carter and in stationary rolling of the product, {d16.share*100 .1} % under the moment that brakes to \
                 {d16.creepage .2e}",
-        proof: "`F/μP = 1 − (1 − ξ/ξ_fs)²` with `ξ_fs = μa/r`. Recomputed under D 18. The regularised law with `ε_r` = 1e-4 m/s takes 0.006 at most \
-                of that on one mesh; 0.48 in braking needs a tenfold `ε_r` or an uneven mesh. The thesis's own step in time needs \
-                {d16.method.share*100 .1} % under the moment that makes the wheel creep by 1.9e-4 (D 16–17).",
+        proof: "`F/μP = 1 − (1 − ξ/ξ_fs)²` with `ξ_fs = μa/r`. Recomputed under D 18. 0.48 needs a tenfold `ε_r` or an uneven mesh; the thesis's own \
+                step in time needs {d16.method.share*100 .1} % (D 16–17).",
     },
     Mistake {
         kind: Kind::Thesis,
         place: "[D] (38)",
         says: "deformation heats by `αE θ_ref`",
         right: "`3Kα θ_ref = αE θ_ref/(1 − 2ν)`, as [B] (33) and [D] (10)",
-        proof: "A body held in all directions has the strain `−αθ` in each, whose stress is 3K times that: 2.5 times `αE` for ν = 0.3; \
-                reciprocity gives the heat the same factor. `αE` stands in all six places of Appendix A, so no slip of a letter.",
+        proof: "A body held in all directions has the strain `−αθ` in each, whose stress is 3K times that; reciprocity gives the heat the same factor. \
+                `αE` stands in all six places of Appendix A.",
     },
     Mistake {
         kind: Kind::Thesis,
         place: "[D] Fig. 14",
         says: "`M^c ≈ r_o F_x^ext`",
         right: "`M^c ≈ r_o F_x^c`",
-        proof: "The contact's moment about the hub is that of the contact's own force. It stands so twice, and Fig. 13 shows both forces: `F_x^ext` is zero \
-                where `M^c` is at its plateau.",
+        proof: "The contact's moment about the hub is that of its own force. It stands so twice; in Fig. 13 `F_x^ext` is zero at the plateau of `M^c`.",
     },
     Mistake {
         kind: Kind::Text,
         place: "[A] § 3.2, Fig. 6",
         says: "\"for case 3\", \"between cases 1 and 2\"",
         right: "cases (a) to (c)",
-        proof: "The list before has letters; (b) is the larger domain that the text takes as reference and calls 2.",
+        proof: "The list before has letters; (b) is the reference that the text calls 2.",
     },
     Mistake {
         kind: Kind::Text,
         place: "[C] § 6.3.1",
         says: "deviations near the edge of the slip zone: \"see Figures 11–14\"",
         right: "Figures 8–11",
-        proof: "Figures 8 to 10 show these stresses beside Hertz and Carter and 11 the slip; 12 and 13 are temperatures at the contact and 14 is a mean \
-                temperature over the velocity.",
+        proof: "Figures 8 to 11 show stresses and slip, 12 to 14 temperatures.",
     },
     Mistake {
         kind: Kind::Text,
         place: "[C] Fig. 14",
         says: "caption: mean temperatures in cylinder and plate",
         right: "in the cylinder, as the text says, or the text means both",
-        proof: "The text says \"mean temperatures in the cylinder\", where it says \"in cylinder and plate\" of Figure 15. Recomputed for both under C 14.",
+        proof: "Of Figure 15 the text says \"in cylinder and plate\". Recomputed for both under C 14.",
     },
     Mistake {
         kind: Kind::Text,
         place: "[D] App. A",
         says: "load of the accelerated frame `D_t v̄ − Ẍ`",
         right: "`D_t v̄ + Ẍ`, as [B] (26)",
-        proof: "An undeformed rail rests: its `v̄ = −V e_x` has `D_t v̄ = −V̇ e_x`, the frame `Ẍ = V̇ e_x`, and only their sum vanishes. \
-                [D] (34) has zero for the rail, so [D] means the sum, too.",
+        proof: "An undeformed rail rests: `D_t v̄ = −V̇ e_x`, `Ẍ = V̇ e_x`, and only their sum vanishes, as in [D] (34).",
     },
     Mistake {
         kind: Kind::Text,
         place: "[D] (28)",
         says: "`v = û`",
         right: "`v = d_t û`",
-        proof: "The matrix C of (28) multiplies a velocity. A dot, probably lost with the thesis's conversion into text.",
+        proof: "The matrix C of (28) multiplies a velocity: a dot is lost.",
     },
     Mistake {
         kind: Kind::Text,
         place: "[D] § 5.3.1",
         says: "vertical force `F_x`",
         right: "horizontal force",
-        proof: "`F_x` is conjugate to the velocity of travel; § 5.2.2 calls it the external horizontal force.",
+        proof: "§ 5.2.2 calls it the external horizontal force.",
     },
     Mistake {
         kind: Kind::Text,
         place: "[D] § 6.2.2",
         says: "braking to 10 km/h starts with `V̄ = 0`",
         right: "50 km/h",
-        proof: "What rests cannot be slowed to 10 km/h. The next paragraph takes the start values of force and moment at 50 km/h; the number was probably \
-                lost with the conversion into text.",
+        proof: "What rests cannot be slowed; the next paragraph takes the start values at 50 km/h.",
     },
     Mistake {
         kind: Kind::Text,
         place: "[D] Fig. 8",
         says: "quasi-static for `|ξ|` < 4e-3 1/s",
         right: "for `|dξ/dt|` < 4e-3 1/s",
-        proof: "The unit is that of a rate, and the sentence goes on with the creepage rate. Recomputed under D 7–8.",
+        proof: "The unit is that of a rate.",
     },
     Mistake {
         kind: Kind::Text,
         place: "[D] Fig. 6",
         says: "`0 < ξ < ξ_fs` with `ξ_fs` ≈ −6e-4, and `ξ₀` = −8e-4 `> ξ_fs`",
         right: "`ξ_fs < ξ < 0` and `ξ₀ < ξ_fs`, or magnitudes",
-        proof: "No number lies between 0 and −6e-4 in this order; (29) has `ξ₀` = −8e-4.",
+        proof: "No number lies between 0 and −6e-4 in this order.",
     },
     Mistake {
         kind: Kind::Text,
         place: "[C] (15)",
         says: "second line with the master's velocity less the slave's",
         right: "the slave's less the master's, as the first line and [D] (16)",
-        proof: "The two lines have opposite signs; (14) and (18) need a force against the slip, `t_m ṡ < 0`, which the first line gives.",
+        proof: "(14) and (18) need a force against the slip, `t_m ṡ < 0`.",
     },
     Mistake {
         kind: Kind::Ours,
         place: "[C] § 6.3.1, [D] § 6.2.1",
         says: "local deformations in the contact, which Carter's theory does not have, make the force deviate from Carter's and nonzero without creepage",
-        right: "by our measure they do so by a hundredth of the limit at most: without creepage {d6.free.still +.4} without centrifugal load ([D], 50 km/h), \
-                {d6.free .4} with it, {d6.free.fast +.4} at 100 km/h, {c7.free +.4} under the load of [C]",
-        proof: "The product has these deformations and neither a regularised law nor an uneven mesh. Deformation under the load and under the centrifugal load have \
-                opposite signs and nearly cancel at the load and speed of [D], where the whole curve is within {d6.carter.off .1e} of Carter. The thesis's method has \
-                {d6.tanh_bias +.3} without creepage on our mesh of D 6 and up to 0.3 on coarser ones (D 18), most of which fades as the mesh becomes finer. How \
-                large the deviation is in the thesis's own figures cannot be read from the text, so that nothing shows its explanation to be wrong. \
-                Recomputed under D 6, C 7 and D 18.",
+        right: "by a hundredth of the limit at most: without creepage {d6.free.still +.4} without centrifugal load ([D], 50 km/h), {d6.free .4} with it, \
+                {d6.free.fast +.4} at 100 km/h, {c7.free +.4} under the load of [C]",
+        proof: "The product has these deformations and neither a regularised law nor an uneven mesh; its curve is within {d6.carter.off .1e} of Carter. The \
+                thesis's method has {d6.tanh_bias +.3} without creepage on the mesh of D 6 and up to 0.3 on coarser ones. How large the deviation is in \
+                the thesis's figures cannot be read from the text. Recomputed under D 6, C 7 and D 18.",
     },
     Mistake {
         kind: Kind::Ours,
         place: "[B] Fig. 15",
         says: "thermal contact is perfect above 1e7 W/(m² K)",
-        right: "by our measure {b15.left*100 .0} % of the wheel's temperature are left to the resistance there, 5 % at {b15.threshold .0e}",
-        proof: "The wheel's mean temperature is a sum of the contact's resistance and the chill by the rail. The thesis reads a saturation off its figure and \
-                names no measure, so this is no error. Recomputed under B 15.",
+        right: "{b15.left*100 .0} % of the wheel's temperature are left to the resistance there, 5 % at {b15.threshold .0e}",
+        proof: "The thesis reads a saturation off its figure and names no measure, so this is no error.",
     },
 ];

@@ -1,7 +1,7 @@
 //! The methods of A. Draganis' thesis, as they stand in it, and its figures and tables beside the product's results.
 //!
 //! The product solves the same equations by other means. Nothing of this crate enters it; here the thesis's own schemes
-//! exist, run and are compared. `docs/thesis.md` goes through them equation by equation.
+//! exist, run and are compared. `docs/thesis.md` says which equations were changed and what came out.
 //!
 //! `[A]` to `[D]` are the papers of the thesis, `[I]` its introduction: a number in brackets is an equation, one after
 //! § a section, and figures and tables have their names.
