@@ -208,25 +208,21 @@ impl Recorder {
         Records { peaks, histories: vec![Vec::new(); mesh.arc.len()] }
     }
 
-    /// The records after a step of `dt` [s] to the time `time` [s] between excess temperatures [K].
-    pub fn stepped(&self, records: &Records, [before, after]: [&[f64]; 2], time: f64, dt: f64) -> Records {
+    /// Adds a step of `dt` \[s] to the time `time` \[s] between excess temperatures \[K] to the records.
+    pub fn record(&self, records: &mut Records, [before, after]: [&[f64]; 2], time: f64, dt: f64) {
         let layers = before.len() / records.histories.len().max(1);
-        let absolute = |excess: &f64| self.reference + excess;
-        let peaks = records.peaks.iter().zip(after).map(|(peak, after)| peak.max(absolute(after))).collect();
-        let columns = records.histories.iter().zip(before.chunks_exact(layers).zip(after.chunks_exact(layers)));
-        let histories = columns.map(|(histories, (before, after))| {
+        let absolute = |excess: f64| self.reference + excess;
+        records.peaks.iter_mut().zip(after).for_each(|(peak, after)| *peak = peak.max(absolute(*after)));
+        let columns = before.chunks_exact(layers).zip(after.chunks_exact(layers));
+        for (histories, (before, after)) in records.histories.iter_mut().zip(columns) {
             let highest = before.iter().chain(after).fold(f64::NEG_INFINITY, |most, excess| most.max(*excess));
-            if histories.is_empty() && self.criteria.leaves_cold(absolute(&highest)) {
-                return Vec::new();
+            if histories.is_empty() && self.criteria.leaves_cold(absolute(highest)) {
+                continue;
             }
-            let histories = histories.iter().copied().chain(std::iter::repeat(PointHistory::default()));
-            let points = histories.zip(before.iter().zip(after));
-            let stepped = points.map(|(mut history, (before, after))| {
-                history.record([absolute(before), absolute(after)], time, dt, &self.criteria);
-                history
-            });
-            stepped.collect()
-        });
-        Records { peaks, histories: histories.collect() }
+            histories.resize(layers, PointHistory::default());
+            for (history, (before, after)) in histories.iter_mut().zip(before.iter().zip(after)) {
+                history.record([absolute(*before), absolute(*after)], time, dt, &self.criteria);
+            }
+        }
     }
 }

@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 /// First step of its own after the contact has left a spot [s], and the share of the time since then that later ones
 /// take; beside a contact that stands still, of the time since the place became hot.
-const FIRST_STEP: f64 = 2e-5;
-const STEP_SHARE: f64 = 0.03;
+const FIRST_STEP: f64 = 4e-5;
+const STEP_SHARE: f64 = 0.05;
 /// Time in which a wheel that stands still hardly turns \[s].
 const STANDS: f64 = 1e-2;
 /// Temperature below which the heat that a place brought along is forgotten [K].
@@ -146,23 +146,24 @@ impl Spot {
             self.field = Some(Arc::new(SpotField::cold(mesh, recorder, self.rested.take())));
             self.earlier.martensite_depth = 0.0;
         }
-        let Some(field) = self.field.as_mut() else { return false };
-        let (mut now, mut remainder) = (field.temperature.clone(), Vec::new());
+        let Some(field) = self.field.as_mut().map(Arc::make_mut) else { return false };
+        let before = field.temperature.clone();
+        let SpotField { temperature: now, remainder, age, .. } = &mut *field;
         let covered = visit.columns(mesh);
         if back {
-            conduct(mesh, &mut now, all, dt, visit.film, scratch);
+            conduct(mesh, now, all, dt, visit.film, scratch);
+            remainder.clear();
             remainder.resize(mesh.size(), 0.0);
         } else {
             self.beside += dt;
-            if visit.still <= STANDS || self.beside >= mesh.resolution * STEP_SHARE * field.age {
+            if visit.still <= STANDS || self.beside >= mesh.resolution * STEP_SHARE * *age {
                 let dt = std::mem::take(&mut self.beside);
                 for columns in beside(mesh, &covered, dt).into_iter().filter(|columns| !columns.is_empty()) {
-                    conduct(mesh, &mut now, columns, dt, visit.film, scratch);
+                    conduct(mesh, now, columns, dt, visit.film, scratch);
                 }
             }
-            if !field.remainder.is_empty() {
-                remainder.clone_from(&field.remainder);
-                conduct(mesh, &mut remainder, all, dt, visit.film, scratch);
+            if !remainder.is_empty() {
+                conduct(mesh, remainder, all, dt, visit.film, scratch);
             }
         }
         let mut seen = vec![0.0; layers];
@@ -176,9 +177,9 @@ impl Spot {
             }
         }
         if remainder.iter().all(|rest| rest.abs() < NEGLIGIBLE) {
-            remainder = Vec::new();
+            *remainder = Vec::new();
         }
-        *field = Arc::new(field.after(now, remainder, recorder, dt));
+        field.record(&before, recorder, dt);
         self.alone = 0.0;
         self.judge(mesh, recorder);
         true
@@ -217,13 +218,16 @@ impl Spot {
         if self.pending < own_step(self.alone) {
             return false;
         }
+        let field = Arc::make_mut(field);
+        field.remainder = Vec::new();
+        let mut before = Vec::new();
         while self.pending >= own_step(self.alone) {
             let step = own_step(self.alone);
             self.pending -= step;
             self.alone += step;
-            let mut now = field.temperature.clone();
-            conduct(mesh, &mut now, 0..mesh.arc.len(), step, film, scratch);
-            *field = Arc::new(field.after(now, Vec::new(), recorder, step));
+            before.clone_from(&field.temperature);
+            conduct(mesh, &mut field.temperature, 0..mesh.arc.len(), step, film, scratch);
+            field.record(&before, recorder, step);
         }
         self.judge(mesh, recorder);
         true
@@ -288,10 +292,9 @@ impl SpotField {
         Self { records, temperature, ..Self::default() }
     }
 
-    /// The field after a step of `dt` [s] to the given temperatures, with the records of its points.
-    fn after(&self, temperature: Vec<f64>, remainder: Vec<f64>, recorder: &Recorder, dt: f64) -> Self {
-        let age = self.age + dt;
-        let records = recorder.stepped(&self.records, [&self.temperature, &temperature], age, dt);
-        Self { temperature, remainder, records, age }
+    /// Notes a step of `dt` \[s] from the excess temperatures `before` \[K] to those of now in the records of the points.
+    fn record(&mut self, before: &[f64], recorder: &Recorder, dt: f64) {
+        self.age += dt;
+        recorder.record(&mut self.records, [before, &self.temperature], self.age, dt);
     }
 }

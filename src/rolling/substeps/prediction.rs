@@ -122,7 +122,8 @@ impl Found {
     ) -> Self {
         let (now, found) = (controlled(model, from), controlled(model, to));
         let first = to.clock.restarted || last_step == 0.0;
-        let ratio = if first { 0.0 } else { dt / last_step };
+        // What the slopes of the step before explain is no error of a formula that starts afresh, either.
+        let ratio = if last_step > 0.0 { dt / last_step } else { 0.0 };
         let missed = |of: &dyn Fn(&Controlled) -> f64| missed([before, &now, &found], ratio, of);
         let (load, radius) = (model.contact.nominal_line_load(), model.wheel.radius);
         let flies = !from.touches() && !to.touches();
