@@ -63,6 +63,8 @@ pub(crate) fn observe_over(model: &RollingModel, state: &State, others: Outputs)
         molten: state.mean_over_area(|line| line.contact.traction.under_film),
         internal_steps: state.clock.internal_steps,
         limited_steps: state.clock.limited_steps,
+        force_error: state.clock.errors[0] * width,
+        temperature_error: state.clock.errors[1],
         iterations: state.clock.iterations,
         suggested_step: suggested_step(model, state),
         ..lateral_outputs(model, state, motion_outputs(model, state, traction_outputs(model, traction, others)))

@@ -66,6 +66,8 @@ pub struct Clock {
     pub internal_steps: u64,
     /// Those among them whose errors exceed the tolerance because no more internal steps were allowed.
     pub limited_steps: u64,
+    /// Estimated errors of force [N/m] and temperature \[K] by the lengths of its internal steps and of those just before.
+    pub errors: [f64; 2],
     /// Contact iterations of the last communication step.
     pub iterations: u64,
     /// Fingerprint of the decisions of the last communication step.

@@ -50,6 +50,8 @@ const AUTOMATIC: f64 = 0.1;
 /// Internal steps in which the wheel passes the shortest wave of a profile, where they are chosen automatically: the
 /// second-order formula then sees it within a percent.
 const STEPS_PER_WAVE: f64 = 40.0;
+/// Time in which what coarse steps have missed fades from the estimate of errors \[s]: some periods of the wheel on its contact.
+const FADES: f64 = 5e-3;
 /// How often in succession a step that finds no contact state is halved before it is given up.
 const MAX_HALVINGS: u32 = 12;
 /// Control of a stationary start: the errors do not limit the step yet.
@@ -225,6 +227,8 @@ fn fewest_pieces(model: &RollingModel, tuning: &Tuning, state: &State, ramp: &Ra
 struct Sums {
     /// Internal steps, those among them whose error was let pass, and the contact iterations of all.
     counts: [u64; 3],
+    /// Estimated errors of force [N/m] and temperature \[K].
+    errors: [f64; 2],
     /// Mean heat flows of every line [W/m].
     flows: Vec<HeatFlows>,
     pressing: Pressing,
@@ -233,9 +237,10 @@ struct Sums {
 
 impl Sums {
     /// Adds the internal step of `dt` seconds that ended in `next`, one of a communication step of `h` seconds.
-    fn add(&mut self, next: &State, limited: bool, dt: f64, h: f64) {
+    fn add(&mut self, next: &State, (verdict, found): (Verdict, &Found), dt: f64, h: f64) {
         let [steps, spoilt, iterations] = self.counts;
-        self.counts = [steps + 1, spoilt + u64::from(limited), iterations + next.iterations() as u64];
+        self.counts = [steps + 1, spoilt + u64::from(verdict == Verdict::Limited), iterations + next.iterations() as u64];
+        self.errors = [self.errors[0] + found.force, self.errors[1] + found.temperature];
         self.flows.resize(next.lines.len(), HeatFlows::default());
         for (flows, line) in self.flows.iter_mut().zip(&next.lines) {
             line.thermal.iter().for_each(|thermal| flows.add(dt / h, &thermal.flows));
@@ -252,6 +257,8 @@ impl Sums {
             line.thermal.iter_mut().for_each(|thermal| thermal.flows = flows);
         }
         [state.clock.internal_steps, state.clock.limited_steps, state.clock.iterations] = self.counts;
+        let left = libm::exp(-h / FADES);
+        state.clock.errors = [0, 1].map(|k| self.errors[k].max(left * before.clock.errors[k]));
         state.clock.decisions = self.decisions.finish();
     }
 }
@@ -355,7 +362,7 @@ fn march(
         if control.grows(&found, dt) {
             place.join(fewest);
         }
-        sums.add(next, verdict == Verdict::Limited, dt, ramp.h);
+        sums.add(next, (verdict, &found), dt, ramp.h);
         (last_step, begun) = (next.clock.last_step, true);
         std::mem::swap(now, next);
     }

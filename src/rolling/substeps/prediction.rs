@@ -83,6 +83,10 @@ pub struct Found {
     pub error: f64,
     /// Largest deviation of the predicted temperatures, relative to theirs \[1].
     pub warming: f64,
+    /// Largest deviation of a contact force, that of the moment over the radius, from its prediction [N/m].
+    pub force: f64,
+    /// Largest deviation of a mean temperature of the patch from its prediction \[K].
+    pub temperature: f64,
     /// Change of the highest contact temperature \[K].
     pub heating: f64,
     /// Highest absolute contact temperature at the end \[K]; zero without heat.
@@ -127,11 +131,13 @@ impl Found {
         let missed = |of: &dyn Fn(&Controlled) -> f64| missed([before, &now, &found], ratio, of);
         let (load, radius) = (model.contact.nominal_line_load(), model.wheel.radius);
         let flies = !from.touches() && !to.touches();
-        let force = |axis: Axis| match flies && !to.hub.prescribed[axis] {
-            true => missed(&|c| c.resisting[axis]).abs() / (AIRBORNE * load * axis.arm(radius)),
-            false => missed(&|c| c.forces[axis]).abs() / (load * axis.arm(radius)),
+        let of_contact = |axis: Axis| missed(&|c| c.forces[axis]).abs() / axis.arm(radius);
+        let judged = |axis: Axis| match flies && !to.hub.prescribed[axis] {
+            true => missed(&|c| c.resisting[axis]).abs() / (AIRBORNE * axis.arm(radius)),
+            false => of_contact(axis),
         };
-        let mut error = Axis::ALL.into_iter().map(force).fold(0.0, f64::max);
+        let force = Axis::ALL.into_iter().map(of_contact).fold(0.0, f64::max);
+        let mut error = Axis::ALL.into_iter().map(judged).fold(0.0, f64::max) / load;
         if flies {
             error = error.max(missed(&|c| c.damper).abs() / load);
         }
@@ -156,26 +162,27 @@ impl Found {
         let dented = to.lines.iter().any(|line| line.flattening[0].is_dented());
         let strikes = from.touches() != to.touches();
         let locked = to.hub.brake.locked;
-        Self { error, yields, dented, strikes, locked, first, doubled: ratio > 1.5, ratio, ..Self::default() }
+        Self { error, force, yields, dented, strikes, locked, first, doubled: ratio > 1.5, ratio, ..Self::default() }
     }
 
     /// Adds what the heat of the same step tells.
     pub fn with_heat(self, model: &RollingModel, from: &State, to: &State, before: &Controlled) -> Self {
         let Some(thermal) = &model.thermal else { return Self { whole: true, ..self } };
-        let mut warming = 0.0f64;
+        let [mut warming, mut temperature] = [0.0f64; 2];
         // Nor is there a temperature of a patch without one.
         if from.touches() && to.touches() {
             let (now, found) = (temperatures(from), temperatures(to));
             let own = if self.dented { 1.0 } else { OWN };
             for body in 0..2 {
                 let missed = missed([&before.temperatures, &now, &found], self.ratio, &|rises| rises[body]);
+                temperature = temperature.max(missed.abs());
                 warming = warming.max(missed.abs() / WARM.max(own * found[body].abs()));
             }
         }
         let (rise, hottest) = (hottest(to) - hottest(from), thermal.reference() + hottest(to));
         let (heating, molten) = (rise.abs(), hottest > thermal.hottest() && rise > 0.0);
         let overheats = molten && hottest - rise <= thermal.hottest();
-        Self { warming, heating, hottest, overheats, molten, whole: true, ..self }
+        Self { warming, temperature, heating, hottest, overheats, molten, whole: true, ..self }
     }
 
     /// Refuses a step that leaves the contact hotter than molten steel under friction can be.
