@@ -102,15 +102,13 @@ fn a_bound_that_is_not_reached_changes_nothing() {
 fn a_bound_holds_is_told_of_where_it_binds_and_costs_little_accuracy() {
     let model = railway();
     let free = lock_up(&model, None);
-    for (most, force, temperature, energy, speed) in
-        [
-            (16, 1.2e-3, 8.0, 1e-3, 1.4e-4),
-            (8, 6e-3, 15.0, 1.4e-2, 5e-4),
-            (4, 0.036, 45.0, 0.08, 1.5e-3),
-            (2, 0.095, 130.0, 0.21, 2.5e-3),
-            (1, 0.095, 130.0, 0.21, 2.5e-3),
-        ]
-    {
+    for (most, force, temperature, energy, speed) in [
+        (16, 1.2e-3, 8.0, 1e-3, 1.4e-4),
+        (8, 6e-3, 15.0, 1.4e-2, 5e-4),
+        (4, 0.036, 45.0, 0.08, 1.5e-3),
+        (2, 0.095, 130.0, 0.21, 2.5e-3),
+        (1, 0.095, 130.0, 0.21, 2.5e-3),
+    ] {
         let run = lock_up(&model, Some(most));
         let told = run.iter().filter(|step| step.told).count();
         println!("at most {most}: it takes {} and is told of {told}", most_steps(&run));

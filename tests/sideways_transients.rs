@@ -45,7 +45,8 @@ fn beyond(lines: &Lines) -> f64 {
     let of = |line: &wheelrail::contact::ContactState| {
         let traction = &line.traction;
         let (shear, across, p) = (&traction.shear.value, &traction.lateral_shear.value, &traction.pressure.value);
-        let over = |i: usize| shear[i].hypot(across[i]) - traction.friction.coefficient * p[i];
+        let over =
+            |i: usize| shear[i].hypot(across.get(i).copied().unwrap_or(0.0)) - traction.friction.coefficient * p[i];
         let most = traction.friction.coefficient * traction.pressure_max.max(1.0);
         (0..p.len()).map(|i| over(i) / most).fold(0.0, f64::max)
     };

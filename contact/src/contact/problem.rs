@@ -146,6 +146,12 @@ impl RigidMotion {
         }
     }
 
+    /// True if its value is zero and stays so without a contact force.
+    pub fn rests(&self) -> bool {
+        let driven = self.drive.loads().is_some_and(|[load, _]| [load, self.offset, self.momentum] != [0.0; 3]);
+        self.start() == 0.0 && !driven
+    }
+
     /// Acceleration that belongs to a value.
     pub fn acceleration(&self, value: f64) -> f64 {
         self.gain * value + self.offset
@@ -267,9 +273,11 @@ impl Drift {
 }
 
 impl ContactProblem<'_> {
-    /// True if tractions and slips have a lateral part.
-    pub fn is_sideways(&self) -> bool {
-        self.lines.iter().any(LineProblem::is_sideways)
+    /// True if tractions and slips get a lateral part from the motions of the wheel: its lines may have one, and it moves
+    /// across or turns.
+    pub fn moves_sideways(&self) -> bool {
+        let moves = self.drift != Drift::default() || !self.rigid.lateral.rests();
+        moves && self.lines.iter().any(LineProblem::is_sideways)
     }
 }
 

@@ -239,7 +239,8 @@ impl Sums {
     /// Adds the internal step of `dt` seconds that ended in `next`, one of a communication step of `h` seconds.
     fn add(&mut self, next: &State, (verdict, found): (Verdict, &Found), dt: f64, h: f64) {
         let [steps, spoilt, iterations] = self.counts;
-        self.counts = [steps + 1, spoilt + u64::from(verdict == Verdict::Limited), iterations + next.iterations() as u64];
+        self.counts =
+            [steps + 1, spoilt + u64::from(verdict == Verdict::Limited), iterations + next.iterations() as u64];
         self.errors = [self.errors[0] + found.force, self.errors[1] + found.temperature];
         self.flows.resize(next.lines.len(), HeatFlows::default());
         for (flows, line) in self.flows.iter_mut().zip(&next.lines) {

@@ -55,10 +55,12 @@ impl ActiveSetSolver {
         found: &mut [&mut ContactState],
         scratch: &mut ActiveSetScratch,
     ) -> Result<(), ContactError> {
-        let resumed = follow && problem.begin == Begin::Found && !problem.is_sideways();
+        // Once lines have a lateral part they keep it; before, nothing is sought across.
+        let sideways = problem.moves_sideways() || start.iter().any(|start| start.grid.directions() > 1);
+        let resumed = follow && problem.begin == Begin::Found && !sideways;
         let begun = start.iter().zip(found).map(|(start, found)| begin(start, found, resumed));
         let mut starts: Vec<_> = begun.collect();
-        for LineStart { state, history, .. } in starts.iter_mut().filter(|_| problem.is_sideways()) {
+        for LineStart { state, history, .. } in starts.iter_mut().filter(|_| sideways) {
             state.reach_across(self.grid.len());
             history.friction.reach(2 * self.grid.len());
         }
