@@ -25,13 +25,15 @@ KEPT = ROOT / "benches" / "instructions.json"
 COUNTED = "wheelrail::simulation::Simulation::advance*"
 GROWTH = 0.05
 STEPS = 60
+COLUMNS = ("time", "drive.moment", "brake.torque", "drive.lateral_velocity")
 PERIOD = 0.04  # of a moment that varies, s
 MOMENT = -7000.0  # about half of the adhesion limit, N m
 COLD = {"thermal.enabled": "false"}
 ELLIPSE = {"preset": "railway_ellipse"}
 SIDEWAYS = {"contact.lateral": "true"}
-# Name, parameters, and inputs by time: a line of a scenario each.
+# Name, parameters, and inputs by time: a line of a scenario each, of the first of these columns.
 HELD = [f"{time},{MOMENT},0" for time in (0, 1)]
+SWAYING = [f"{k * PERIOD / 2},{MOMENT},0,{-0.05 if k % 2 else 0.05}" for k in range(10)]
 VARYING = [f"{k * PERIOD / 2},{MOMENT * (1.3 if k % 2 else 0.7)},0" for k in range(10)]
 LOCKING = ["0,0,7000", "0.02,0,7000", "0.02,0,40000", "1,0,40000"]
 CASES = {
@@ -44,13 +46,15 @@ CASES = {
     "seven lines without heat, held": (ELLIPSE | COLD, HELD),
     "seven lines without heat, varying": (ELLIPSE | COLD, VARYING),
     "seven lines sideways without heat, held": (ELLIPSE | COLD | SIDEWAYS, HELD),
+    "seven lines sideways without heat, swaying": (ELLIPSE | COLD | SIDEWAYS, SWAYING),
 }
 
 
 def command(program, folder, parameters, lines):
     """The command that simulates a case in a folder."""
     scenario = folder / "scenario.csv"
-    scenario.write_text("\n".join(["time,drive.moment,brake.torque", *lines]) + "\n")
+    names = COLUMNS[: lines[0].count(",") + 1]
+    scenario.write_text("\n".join([",".join(names), *lines]) + "\n")
     settings = {"initial.velocity": "27"} | {name: value for name, value in parameters.items() if name != "preset"}
     sets = [word for name, value in settings.items() for word in ("--set", f"{name}={value}")]
     places = ["--resources", str(ROOT / "resources"), "--cache", str(ROOT / "target"), "--out", str(folder / "run.csv")]
