@@ -2,7 +2,7 @@
 
 use super::melt::latent::LatentHeat;
 use super::mesh::body::HeatBody;
-use super::mesh::kernels::{dot, products, products_of_three};
+use super::mesh::kernels::{dot, products};
 use super::mesh::layout::HeatLayout;
 use crate::heat::observation::{Observation, Temperatures};
 use crate::heat::state::HeatState;
@@ -89,7 +89,7 @@ impl ObservationWeights {
             values.resize(nodes.len(), 0.0);
             &mut values[..]
         });
-        products_of_three(zone, [&body.modes.surface, weights, moments], out);
+        products(zone, [&body.modes.surface, weights, moments], out);
         let mean = |weights: &[f64]| {
             if body.streamline.closed > 0.0 { dot(&seen.sums, weights) / body.streamline.closed } else { 0.0 }
         };
@@ -135,7 +135,7 @@ impl ObservationWeights {
             let [low, high] = [above, above + 1].map(|k| &self.core[i][k]);
             let shape: Vec<f64> = low.iter().zip(high).map(|(low, high)| low + share * (high - low)).collect();
             out[i].resize(nodes.len(), 0.0);
-            products(&field[nodes.start * nm..nodes.end * nm], &shape, &mut out[i]);
+            products(&field[nodes.start * nm..nodes.end * nm], [&shape], [&mut out[i]]);
         }
     }
 }

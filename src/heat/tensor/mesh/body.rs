@@ -60,7 +60,7 @@ impl HeatBody {
     pub fn trace(&self, nodes: Range<usize>, x: &[f64], out: &mut Vec<f64>) {
         let nm = self.modes.len();
         out.resize(nodes.len(), 0.0);
-        kernels::products(&x[nodes.start * nm..nodes.end * nm], &self.modes.surface, out);
+        kernels::products(&x[nodes.start * nm..nodes.end * nm], [&self.modes.surface], [out]);
     }
 
     /// `∫ x ds` of every mode.

@@ -4,7 +4,7 @@ use super::history::shared_speeds;
 use crate::heat::state::{BoundaryState, HeatState};
 use crate::heat::tensor::solve::coefficients::StageCoefficients;
 use crate::heat::tensor::solve::operators::StageKey;
-use crate::heat::tensor::solve::solver::{CURVED_BELOW, CURVED_STEP};
+use crate::heat::tensor::solve::stage::{CURVED_BELOW, CURVED_STEP};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Coefficient `γ` of the formula with two stages.
