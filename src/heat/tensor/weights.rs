@@ -89,7 +89,9 @@ impl ObservationWeights {
             values.resize(nodes.len(), 0.0);
             &mut values[..]
         });
-        products(zone, [&body.modes.surface, weights, moments], out);
+        for (shape, out) in [&body.modes.surface, weights, moments].into_iter().zip(out) {
+            products(zone, shape, out);
+        }
         let mean = |weights: &[f64]| {
             if body.streamline.closed > 0.0 { dot(&seen.sums, weights) / body.streamline.closed } else { 0.0 }
         };
@@ -135,7 +137,7 @@ impl ObservationWeights {
             let [low, high] = [above, above + 1].map(|k| &self.core[i][k]);
             let shape: Vec<f64> = low.iter().zip(high).map(|(low, high)| low + share * (high - low)).collect();
             out[i].resize(nodes.len(), 0.0);
-            products(&field[nodes.start * nm..nodes.end * nm], [&shape], [&mut out[i]]);
+            products(&field[nodes.start * nm..nodes.end * nm], &shape, &mut out[i]);
         }
     }
 }

@@ -17,8 +17,6 @@ pub struct DepthModes {
     pub values: Vec<f64>,
     /// Value of each mode at the surface.
     pub surface: Vec<f64>,
-    /// Coefficients of no temperature, beyond the ends of an open streamline.
-    pub nothing: Vec<f64>,
     /// Share of each node in the surface that touches the air, over the width of the contact.
     pub exposed: Vec<f64>,
     /// Value of each mode summed over that surface, `φₘ(0) + ∫ b φₘ dz`.
@@ -67,7 +65,6 @@ impl DepthModes {
         let mut modes = Self {
             values: vec![0.0; padded],
             surface: vec![0.0; padded],
-            nothing: vec![0.0; padded],
             exposed: exposed(section),
             air: Vec::new(),
             block: Vec::new(),

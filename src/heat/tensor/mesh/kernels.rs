@@ -7,10 +7,50 @@
 use crate::linalg::vectorised::vectorised;
 use pulp::Simd;
 
-/// Runs `$work::<S, B>($args, stride, at)` for rows of `$k` registers: one row is `stride` blocks of `B` registers, and the
-/// work is that of the block `at` of every row. Rows of the usual lengths are one block, as the compiler knows.
+/// Defines a [`vectorised!`] loop over rows of `$width` numbers. A row is `$stride` blocks of `$B` registers, and the body
+/// goes over the block `$at` of every row. Rows of the usual lengths are one block, as the compiler knows, so that it
+/// needs no checks of bounds. What is known before the loop may be a constant `$C` in it, which callers give as `$flag`.
+macro_rules! rows {
+    (
+        $(#[$meta:meta])*
+        fn $name:ident<$a:lifetime, $S:ident, $B:ident $(, $C:ident = $flag:ident)?>(
+            $simd:ident, [$stride:ident, $at:ident] of $width:expr, $($arg:ident: $type:ty),* $(,)?
+        ) $body:block
+    ) => {
+        $crate::linalg::vectorised::vectorised! {
+            $(#[$meta])*
+            fn $name<$a, $S>($simd, $($flag: bool,)? $($arg: $type),*) {
+                #[inline(always)]
+                #[allow(clippy::too_many_arguments, unused_variables)]
+                fn block<$a, $S: pulp::Simd, const $B: usize $(, const $C: bool)?>(
+                    $simd: $S, $($arg: $type,)* $stride: usize, $at: usize,
+                ) $body
+                let k = $width / $S::F64_LANES;
+                $crate::heat::tensor::mesh::kernels::by_flag!($($flag)?, k, block::<$S>($simd, $($arg),*));
+            }
+        }
+    };
+}
+pub(crate) use rows;
+
+/// Calls a block of [`rows!`] with its constant.
+macro_rules! by_flag {
+    (, $k:ident, $work:ident::<$S:ident>($($arg:expr),*)) => {
+        $crate::heat::tensor::mesh::kernels::by_rows!($k, $work::<$S>($($arg),*))
+    };
+    ($flag:ident, $k:ident, $work:ident::<$S:ident>($($arg:expr),*)) => {
+        if $flag {
+            $crate::heat::tensor::mesh::kernels::by_rows!($k, $work::<$S, true>($($arg),*))
+        } else {
+            $crate::heat::tensor::mesh::kernels::by_rows!($k, $work::<$S, false>($($arg),*))
+        }
+    };
+}
+pub(crate) use by_flag;
+
+/// Calls a block of [`rows!`] for rows of `$k` registers.
 macro_rules! by_rows {
-    ($k:expr, $work:ident::<$S:ident $(, $C:literal)?>($($arg:expr),* $(,)?)) => {
+    ($k:expr, $work:ident::<$S:ident $(, $C:literal)?>($($arg:expr),*)) => {
         match $k {
             6 => $work::<$S, 6 $(, $C)?>($($arg),*, 1, 0),
             7 => $work::<$S, 7 $(, $C)?>($($arg),*, 1, 0),
@@ -18,19 +58,14 @@ macro_rules! by_rows {
             9 => $work::<$S, 9 $(, $C)?>($($arg),*, 1, 0),
             10 => $work::<$S, 10 $(, $C)?>($($arg),*, 1, 0),
             11 => $work::<$S, 11 $(, $C)?>($($arg),*, 1, 0),
-            k if k % 4 == 0 => {
-                for at in 0..k / 4 {
-                    $work::<$S, 4 $(, $C)?>($($arg),*, k / 4, at);
-                }
-            }
-            k if k % 3 == 0 => {
-                for at in 0..k / 3 {
-                    $work::<$S, 3 $(, $C)?>($($arg),*, k / 3, at);
-                }
-            }
             k => {
-                for at in 0..k {
-                    $work::<$S, 1 $(, $C)?>($($arg),*, k, at);
+                let block = if k % 4 == 0 { 4 } else if k % 3 == 0 { 3 } else { 1 };
+                for at in 0..k / block {
+                    match block {
+                        4 => $work::<$S, 4 $(, $C)?>($($arg),*, k / 4, at),
+                        3 => $work::<$S, 3 $(, $C)?>($($arg),*, k / 3, at),
+                        _ => $work::<$S, 1 $(, $C)?>($($arg),*, k, at),
+                    }
                 }
             }
         }
@@ -40,59 +75,38 @@ pub(crate) use by_rows;
 
 /// An array in blocks of `B` registers.
 #[inline(always)]
-pub fn blocks<V, const B: usize>(x: &[V]) -> &[[V; B]] {
-    x.as_chunks().0
+pub fn blocks<S: Simd, const B: usize>(x: &[f64]) -> &[[S::f64s; B]] {
+    S::as_simd_f64s(x).0.as_chunks().0
 }
 
 /// An array in blocks of `B` registers, to be changed.
 #[inline(always)]
-pub fn blocks_mut<V, const B: usize>(x: &mut [V]) -> &mut [[V; B]] {
-    x.as_chunks_mut().0
+pub fn blocks_mut<S: Simd, const B: usize>(x: &mut [f64]) -> &mut [[S::f64s; B]] {
+    S::as_mut_simd_f64s(x).0.as_chunks_mut().0
 }
 
 vectorised! {
     /// `x ← x + factor · y`.
     fn add<'a, S>(simd, factor: f64, y: &'a [f64], x: &'a mut [f64]) {
-        let ((y, y_rest), (x, x_rest)) = (S::as_simd_f64s(y), S::as_mut_simd_f64s(x));
-        let many = simd.splat_f64s(factor);
-        let ((x, x_few), (y, y_few)) = (x.as_chunks_mut::<4>(), y.as_chunks::<4>());
-        for (x, y) in x.iter_mut().zip(y) {
-            for q in 0..4 {
-                x[q] = simd.mul_add_e_f64s(many, y[q], x[q]);
+        let _ = simd;
+        x.iter_mut().zip(y).for_each(|(x, y)| *x += factor * y);
+    }
+}
+
+rows! {
+    /// Adds all rows of `x`, each times its weight, to `sums`.
+    fn add_weighted<'a, S, B>(
+        simd, [stride, at] of sums.len(), weights: &'a [f64], x: &'a [f64], sums: &'a mut [f64]
+    ) {
+        let (x, mut parts) = (&blocks::<S, B>(x)[..weights.len() * stride], blocks::<S, B>(sums)[at]);
+        for i in 0..weights.len() {
+            let (x, weight) = (&x[i * stride + at], simd.splat_f64s(weights[i]));
+            for q in 0..B {
+                parts[q] = simd.mul_add_e_f64s(weight, x[q], parts[q]);
             }
         }
-        x_few.iter_mut().zip(y_few).for_each(|(x, &y)| *x = simd.mul_add_e_f64s(many, y, *x));
-        x_rest.iter_mut().zip(y_rest).for_each(|(x, y)| *x += factor * y);
+        blocks_mut::<S, B>(sums)[at] = parts;
     }
-}
-
-vectorised! {
-    /// Adds all rows of `x`, each times its weight, to `sums`.
-    fn add_weighted<'a, S>(simd, weights: &'a [f64], x: &'a [f64], sums: &'a mut [f64]) {
-        let (x, sums) = (S::as_simd_f64s(x).0, S::as_mut_simd_f64s(sums).0);
-        by_rows!(sums.len(), add_weighted_block::<S>(simd, weights, x, sums));
-    }
-}
-
-/// The block `at` of every row of [`add_weighted`].
-#[inline(always)]
-fn add_weighted_block<S: Simd, const B: usize>(
-    simd: S,
-    weights: &[f64],
-    x: &[S::f64s],
-    sums: &mut [S::f64s],
-    stride: usize,
-    at: usize,
-) {
-    let (x, sums) = (&blocks::<_, B>(x)[..weights.len() * stride], &mut blocks_mut::<_, B>(sums)[at]);
-    let mut parts = *sums;
-    for i in 0..weights.len() {
-        let (x, weight) = (&x[i * stride + at], simd.splat_f64s(weights[i]));
-        for q in 0..B {
-            parts[q] = simd.mul_add_e_f64s(weight, x[q], parts[q]);
-        }
-    }
-    *sums = parts;
 }
 
 /// A field that a stage takes on.
@@ -108,62 +122,38 @@ pub struct Advance<'a> {
     pub peaks: &'a [f64],
 }
 
-vectorised! {
-    /// Fills the field `next` after the stage, `∫ rate ds` of every mode and, unless `moved` is empty, bounds of the
-    /// distances by which the values below every surface node have moved in the step.
-    fn advance<'a, S>(
-        simd,
-        stage: &'a Advance<'a>,
-        next: &'a mut [f64],
-        sums: &'a mut [f64],
-        moved: &'a mut [f64],
+rows! {
+    /// Fills the field `next` after the stage and `∫ rate ds` of every mode; after the last stage of a step also bounds
+    /// of the distances by which the values below every surface node have `moved` in the step.
+    fn advance<'a, S, B, LAST = last>(
+        simd, [stride, at] of sums.len(),
+        stage: &'a Advance<'a>, next: &'a mut [f64], sums: &'a mut [f64], moved: &'a mut [f64],
     ) {
-        let (next, sums) = (S::as_mut_simd_f64s(next).0, S::as_mut_simd_f64s(sums).0);
-        moved.fill(0.0);
-        if moved.is_empty() {
-            by_rows!(sums.len(), advance_block::<S, false>(simd, stage, next, sums, moved));
-        } else {
-            by_rows!(sums.len(), advance_block::<S, true>(simd, stage, next, sums, moved));
-        }
-    }
-}
-
-/// The block `at` of every row of [`advance`]; `LAST`: in the last stage of a step.
-#[inline(always)]
-fn advance_block<S: Simd, const B: usize, const LAST: bool>(
-    simd: S,
-    stage: &Advance,
-    next: &mut [S::f64s],
-    sums: &mut [S::f64s],
-    moved: &mut [f64],
-    stride: usize,
-    at: usize,
-) {
-    let (n, weights) = (stage.weights.len(), stage.weights);
-    let moved = if LAST { &mut moved[..n] } else { moved };
-    let rate = &blocks::<_, B>(S::as_simd_f64s(stage.rate).0)[..n * stride];
-    let from = &blocks::<_, B>(S::as_simd_f64s(stage.from).0)[..n * stride];
-    let begin = &blocks::<_, B>(S::as_simd_f64s(stage.begin).0)[..n * stride];
-    let next = &mut blocks_mut::<_, B>(next)[..n * stride];
-    let peaks = blocks::<_, B>(S::as_simd_f64s(stage.peaks).0)[at];
-    let (ahead, mut parts) = (simd.splat_f64s(stage.ahead), [simd.splat_f64s(0.0); B]);
-    for i in 0..n {
-        let (weight, mut distance) = (simd.splat_f64s(weights[i]), simd.splat_f64s(0.0));
-        let j = i * stride + at;
-        let (rate, from, begin, next) = (&rate[j], &from[j], &begin[j], &mut next[j]);
-        for q in 0..B {
-            next[q] = simd.mul_add_e_f64s(ahead, rate[q], from[q]);
-            parts[q] = simd.mul_add_e_f64s(weight, rate[q], parts[q]);
+        let (n, weights) = (stage.weights.len(), stage.weights);
+        let moved = if LAST { &mut moved[..n] } else { moved };
+        let (rate, from) = (&blocks::<S, B>(stage.rate)[..n * stride], &blocks::<S, B>(stage.from)[..n * stride]);
+        let begin = &blocks::<S, B>(stage.begin)[..n * stride];
+        let next = &mut blocks_mut::<S, B>(next)[..n * stride];
+        let (peaks, ahead) = (blocks::<S, B>(stage.peaks)[at], simd.splat_f64s(stage.ahead));
+        let mut parts = [simd.splat_f64s(0.0); B];
+        for i in 0..n {
+            let (weight, mut distance) = (simd.splat_f64s(weights[i]), simd.splat_f64s(0.0));
+            let j = i * stride + at;
+            let (rate, from, begin, next) = (&rate[j], &from[j], &begin[j], &mut next[j]);
+            for q in 0..B {
+                next[q] = simd.mul_add_e_f64s(ahead, rate[q], from[q]);
+                parts[q] = simd.mul_add_e_f64s(weight, rate[q], parts[q]);
+                if LAST {
+                    let change = simd.abs_f64s(simd.sub_f64s(next[q], begin[q]));
+                    distance = simd.mul_add_e_f64s(change, peaks[q], distance);
+                }
+            }
             if LAST {
-                let change = simd.abs_f64s(simd.sub_f64s(next[q], begin[q]));
-                distance = simd.mul_add_e_f64s(change, peaks[q], distance);
+                moved[i] = if at == 0 { 0.0 } else { moved[i] } + simd.reduce_sum_f64s(distance);
             }
         }
-        if LAST {
-            moved[i] += simd.reduce_sum_f64s(distance);
-        }
+        blocks_mut::<S, B>(sums)[at] = parts;
     }
-    blocks_mut::<_, B>(sums)[at] = parts;
 }
 
 vectorised! {
@@ -179,75 +169,44 @@ vectorised! {
     }
 }
 
-vectorised! {
-    /// Scalar products of all rows of `x` with some shapes.
-    fn products<'a, S, const N: usize>(simd, x: &'a [f64], shapes: [&'a [f64]; N], out: [&'a mut [f64]; N]) {
-        let k = shapes[0].len() / S::F64_LANES;
-        for (out, shape) in out.into_iter().zip(shapes) {
-            let (x, shape) = (S::as_simd_f64s(x).0, S::as_simd_f64s(shape).0);
-            out.fill(0.0);
-            by_rows!(k, products_block::<S>(simd, x, shape, out));
+rows! {
+    /// Scalar products of all rows of `x` with `shape`.
+    fn products<'a, S, B>(simd, [stride, at] of shape.len(), x: &'a [f64], shape: &'a [f64], out: &'a mut [f64]) {
+        let (x, shape) = (&blocks::<S, B>(x)[..out.len() * stride], blocks::<S, B>(shape)[at]);
+        for i in 0..out.len() {
+            let (x, mut sum) = (&x[i * stride + at], simd.splat_f64s(0.0));
+            for q in 0..B {
+                sum = simd.mul_add_e_f64s(x[q], shape[q], sum);
+            }
+            out[i] = if at == 0 { 0.0 } else { out[i] } + simd.reduce_sum_f64s(sum);
         }
     }
 }
 
-/// The block `at` of every row of [`products`].
-#[inline(always)]
-fn products_block<S: Simd, const B: usize>(
-    simd: S,
-    x: &[S::f64s],
-    shape: &[S::f64s],
-    out: &mut [f64],
-    stride: usize,
-    at: usize,
-) {
-    let (x, shape) = (&blocks::<_, B>(x)[..out.len() * stride], &blocks::<_, B>(shape)[at]);
-    for i in 0..out.len() {
-        let (x, mut sum) = (&x[i * stride + at], simd.splat_f64s(0.0));
-        for q in 0..B {
-            sum = simd.mul_add_e_f64s(x[q], shape[q], sum);
-        }
-        out[i] += simd.reduce_sum_f64s(sum);
-    }
-}
-
-vectorised! {
-    /// Lowest and highest value of all rows of `modes` numbers at the nodes with the values `shapes` of all modes, mode
-    /// by mode.
-    fn extremes<'a, S>(simd, x: &'a [f64], modes: usize, shapes: &'a [f64]) -> [f64; 2] {
-        let shapes = S::as_simd_f64s(shapes).0;
-        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+rows! {
+    /// Widens `range` by the values of all rows of `x` at the nodes where the modes have the values `shapes`, mode by
+    /// mode and those of a mode as many as `nodes`.
+    fn extremes<'a, S, B>(
+        simd, [stride, at] of nodes, x: &'a [f64], shapes: &'a [f64], nodes: usize, range: &'a mut [f64; 2]
+    ) {
+        let (shapes, modes) = (blocks::<S, B>(shapes), shapes.len() / nodes);
+        let shapes = &shapes[..modes * stride];
         for row in x.chunks_exact(modes) {
-            let range = &mut range;
-            by_rows!(shapes.len() / modes, extremes_block::<S>(simd, row, shapes, range));
-        }
-        range
-    }
-}
-
-/// The block `at` of the nodes of [`extremes`].
-#[inline(always)]
-fn extremes_block<S: Simd, const B: usize>(
-    simd: S,
-    row: &[f64],
-    shapes: &[S::f64s],
-    range: &mut [f64; 2],
-    stride: usize,
-    at: usize,
-) {
-    let (shapes, mut sums) = (&blocks::<_, B>(shapes)[..row.len() * stride], [simd.splat_f64s(0.0); B]);
-    for i in 0..row.len() {
-        let (x, shape) = (simd.splat_f64s(row[i]), &shapes[i * stride + at]);
-        for q in 0..B {
-            sums[q] = simd.mul_add_e_f64s(x, shape[q], sums[q]);
+            let mut sums = [simd.splat_f64s(0.0); B];
+            for i in 0..modes {
+                let (x, shape) = (simd.splat_f64s(row[i]), &shapes[i * stride + at]);
+                for q in 0..B {
+                    sums[q] = simd.mul_add_e_f64s(x, shape[q], sums[q]);
+                }
+            }
+            let mut ends = [sums[0]; 2];
+            for sum in sums {
+                ends = [simd.min_f64s(ends[0], sum), simd.max_f64s(ends[1], sum)];
+            }
+            let [low, high] = [simd.reduce_min_f64s(ends[0]), simd.reduce_max_f64s(ends[1])];
+            *range = [range[0].min(low), range[1].max(high)];
         }
     }
-    let mut ends = [sums[0]; 2];
-    for q in 1..B {
-        ends = [simd.min_f64s(ends[0], sums[q]), simd.max_f64s(ends[1], sums[q])];
-    }
-    let [low, high] = [simd.reduce_min_f64s(ends[0]), simd.reduce_max_f64s(ends[1])];
-    *range = [range[0].min(low), range[1].max(high)];
 }
 
 /// Scalar product of vectors whose length is a multiple of four.

@@ -76,21 +76,38 @@ impl Nodal {
 
     /// Lowest and highest value of a field at its nodes, or of the part of it below some surface nodes.
     pub fn extremes(&self, field: &[f64]) -> [f64; 2] {
-        kernels::extremes(field, self.modes, &self.shapes)
+        let mut range = EMPTY;
+        kernels::extremes(field, &self.shapes, self.shapes.len() / self.modes, &mut range);
+        range
     }
 
-    /// Bounds of all `rows` of a field from what is known of each: one is looked at where it may have left the bounds
-    /// `allowed`, or has moved by more than `slight`.
+    /// Bounds of all values of a field from what is known of its `rows`. A row is looked at where it may have left the
+    /// bounds `allowed`; one that has moved by more than `slight`, where it may have the lowest or the highest value.
     pub fn look(&self, field: &[f64], rows: &mut [RowBounds], allowed: [f64; 2], slight: f64) -> [f64; 2] {
-        let mut range = EMPTY;
-        for (row, values) in rows.iter_mut().zip(field.chunks_exact(self.modes)) {
+        let extremes = |i: usize| self.extremes(&field[i * self.modes..][..self.modes]);
+        let (mut range, mut outermost, mut ends) = (EMPTY, EMPTY, [0; 2]);
+        for (i, row) in rows.iter_mut().enumerate() {
             let bounds = row.range();
             // Written so that NaN is not taken for known.
-            let clear = row.moved <= slight && bounds[0] >= allowed[0] && bounds[1] <= allowed[1];
-            if !clear {
-                *row = RowBounds { found: self.extremes(values), moved: 0.0 };
+            let inside = bounds[0] >= allowed[0] && bounds[1] <= allowed[1];
+            if inside && row.moved > slight {
+                let further = [bounds[0] < outermost[0], bounds[1] > outermost[1]];
+                ends = [0, 1].map(|end| if further[end] { i } else { ends[end] });
+                outermost = joined(outermost, bounds);
+                continue;
+            }
+            if !inside {
+                *row = RowBounds { found: extremes(i), moved: 0.0 };
             }
             range = joined(range, row.range());
+        }
+        // The rows that reach farthest come first: they spare looks at others.
+        for i in ends.into_iter().chain(0..rows.len()) {
+            let (bounds, row) = (rows[i].range(), &mut rows[i]);
+            if row.moved > slight && !(bounds[0] >= range[0] && bounds[1] <= range[1]) {
+                *row = RowBounds { found: extremes(i), moved: 0.0 };
+                range = joined(range, row.found);
+            }
         }
         range
     }

@@ -31,12 +31,13 @@ impl StageCoefficients {
     /// The matrix of the modal solver.
     pub fn operator<'a>(&self, body: &'a HeatBody, transport: &'a Transport) -> Operator<'a> {
         let [storage, conduction] = self.mass_weight(body);
-        Operator { transport, modes: &body.modes, weights: [storage, conduction, self.flow] }
+        Operator { body, transport, weights: [storage, conduction, self.flow] }
     }
 
     /// `out ← S x` with the operator of the modal solver, or `out ← out + S x`.
     pub fn multiply(&self, body: &HeatBody, transport: &Transport, x: &[f64], out: &mut [f64], update: Update) {
-        passes::product(&self.operator(body, transport), x, out, update);
+        let (last, nothing) = (body.streamline.len() - 1, &body.nothing[..]);
+        passes::load(update == Update::Add, &self.operator(body, transport), last, [nothing; 2], x, out);
     }
 
     /// `out ← out + β k K ⊗ ∫(1/g − g)NN x`: the part of the conduction along the streamlines that the modal solver

@@ -1,7 +1,7 @@
 //! Factors of the tridiagonal systems of one implicit step, one system per mode across the streamlines.
 
 use super::coefficients::StageCoefficients;
-use super::passes::{self, Elimination, Operator};
+use super::passes::{self, Operator};
 use super::ring::{Carried, Ring, factorise, factorise_filled};
 use super::transport::Transport;
 use crate::heat::error::HeatError;
@@ -97,7 +97,7 @@ impl TridiagonalFactor {
 
     /// The first half of a solution, `x ← (1 + w + row)⁻¹ x`.
     pub fn eliminate(&mut self, body: &HeatBody, x: &mut [f64]) {
-        passes::eliminate(&Elimination { last: self.last, links: &self.w }, x, body.modes.len());
+        passes::eliminate(self.last, &self.w, x, body.modes.len());
         self.take_filled(body, x);
     }
 
@@ -112,8 +112,7 @@ impl TridiagonalFactor {
         out: &mut [f64],
         update: Update,
     ) {
-        let elimination = Elimination { last: self.last, links: &self.w };
-        passes::load(operator, &elimination, loads, x, out, update);
+        passes::load(update == Update::Add, operator, self.last, [&self.w, loads], x, out);
         self.take_filled(body, out);
     }
 
@@ -137,7 +136,7 @@ impl TridiagonalFactor {
         let (of_after, of_before) = self.column.split_at(self.column.len().min(after.len()));
         passes::leave(of_after, &self.moving, after);
         passes::leave(of_before, &self.moving, before);
-        passes::substitute(&self.inverse, &self.r, x, nm, self.last);
+        passes::substitute([&self.inverse, &self.r], x, nm, self.last);
     }
 
     /// Surface values of the solution at the nodes `contact`, after [`Self::eliminate`]; they end with the node that

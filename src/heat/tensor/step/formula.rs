@@ -20,11 +20,10 @@
 use super::arrival::arrive;
 use super::bounds::{data, search, set_range, swings};
 use super::flows::StageEnd;
-use super::history::jumps;
 use super::limiter::keep_bounds;
 use super::load_vector::{add_others, add_surface_loads, has_others, set_surface_loads};
 use super::memory::{HeatScratch, LineWork, StepWork};
-use super::plan::StepPlan;
+use super::plan::{StepPlan, jumps};
 use crate::heat::error::HeatError;
 use crate::heat::flows::HeatFlows;
 use crate::heat::limits::{check_speeds, check_step};
@@ -239,7 +238,7 @@ fn take_on(
         let (weights, peaks) = (&body.streamline.weights, &body.nodal.peaks);
         side.sums[1].resize(body.modes.len(), 0.0);
         let stage = Advance { rate, ahead, from, begin, weights, peaks };
-        kernels::advance(&stage, layout.part_mut(i, target), &mut side.sums[1], moved);
+        kernels::advance(index == stages, &stage, layout.part_mut(i, target), &mut side.sums[1], moved);
     }
     if plan.melts {
         let temperature = melting.temperature(&next.values);
