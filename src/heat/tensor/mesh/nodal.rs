@@ -81,33 +81,18 @@ impl Nodal {
         range
     }
 
-    /// Bounds of all values of a field from what is known of its `rows`. A row is looked at where it may have left the
-    /// bounds `allowed`; one that has moved by more than `slight`, where it may have the lowest or the highest value.
+    /// Bounds of all `rows` of a field from what is known of each: one is looked at where it may have left the bounds
+    /// `allowed`, or has moved by more than `slight`.
     pub fn look(&self, field: &[f64], rows: &mut [RowBounds], allowed: [f64; 2], slight: f64) -> [f64; 2] {
-        let extremes = |i: usize| self.extremes(&field[i * self.modes..][..self.modes]);
-        let (mut range, mut outermost, mut ends) = (EMPTY, EMPTY, [0; 2]);
-        for (i, row) in rows.iter_mut().enumerate() {
+        let mut range = EMPTY;
+        for (row, values) in rows.iter_mut().zip(field.chunks_exact(self.modes)) {
             let bounds = row.range();
             // Written so that NaN is not taken for known.
-            let inside = bounds[0] >= allowed[0] && bounds[1] <= allowed[1];
-            if inside && row.moved > slight {
-                let further = [bounds[0] < outermost[0], bounds[1] > outermost[1]];
-                ends = [0, 1].map(|end| if further[end] { i } else { ends[end] });
-                outermost = joined(outermost, bounds);
-                continue;
-            }
-            if !inside {
-                *row = RowBounds { found: extremes(i), moved: 0.0 };
+            let clear = row.moved <= slight && bounds[0] >= allowed[0] && bounds[1] <= allowed[1];
+            if !clear {
+                *row = RowBounds { found: self.extremes(values), moved: 0.0 };
             }
             range = joined(range, row.range());
-        }
-        // The rows that reach farthest come first: they spare looks at others.
-        for i in ends.into_iter().chain(0..rows.len()) {
-            let (bounds, row) = (rows[i].range(), &mut rows[i]);
-            if row.moved > slight && !(bounds[0] >= range[0] && bounds[1] <= range[1]) {
-                *row = RowBounds { found: extremes(i), moved: 0.0 };
-                range = joined(range, row.found);
-            }
         }
         range
     }

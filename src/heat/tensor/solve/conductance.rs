@@ -45,17 +45,19 @@ impl ContactBands {
     /// Replaces the rows by those for the moments of the conductance and the upwinding `τ v / h` on the elements
     /// between the nodes.
     pub fn set(&mut self, moments: &[[f64; 3]], upwind: &[f64]) {
-        for band in [&mut self.lower, &mut self.diagonal, &mut self.upper] {
-            band.clear();
+        let Self { lower, diagonal, upper } = self;
+        for band in [&mut *lower, diagonal, upper] {
             band.resize(moments.len() + 1, 0.0);
         }
-        for (i, (c, &sigma)) in moments.iter().zip(upwind).enumerate() {
+        // What an element adds to the row of its second node.
+        let mut carried = [0.0; 2];
+        let rows = lower.iter_mut().zip(&mut *diagonal).zip(&mut *upper);
+        for (((lower, diagonal), upper), (c, &sigma)) in rows.zip(moments.iter().zip(upwind)) {
             let [[first, up], [low, second]] = of_element(*c, upwind_within(sigma, *c));
-            self.diagonal[i] += first;
-            self.upper[i] += up;
-            self.lower[i + 1] += low;
-            self.diagonal[i + 1] += second;
+            (*lower, *diagonal, *upper) = (carried[0], carried[1] + first, up);
+            carried = [low, second];
         }
+        (lower[moments.len()], diagonal[moments.len()], upper[moments.len()]) = (carried[0], carried[1], 0.0);
     }
 
     /// Adds `factor · ∫ k_c d w̃ ds` to `load`, both given at the contact nodes.

@@ -92,11 +92,12 @@ rows! {
                 let (before, here, after, link, out) = (&before[j], &here[j], &after[j], &links[j], &mut out[j]);
                 let load = simd.splat_f64s(loads[i]);
                 for q in 0..B {
-                    let held = if ADD { out[q] } else { simd.splat_f64s(0.0) };
+                    let given = simd.mul_f64s(load, shape[q]);
+                    let given = if ADD { simd.add_f64s(given, out[q]) } else { given };
                     let (back, ahead) = (simd.sub_f64s(here[q], before[q]), simd.sub_f64s(here[q], after[q]));
                     let mass = less(simd, simd.mul_f64s(sum, here[q]), below, back);
                     let mass = less(simd, mass, above, ahead);
-                    let y = simd.mul_add_e_f64s(alpha[q], mass, simd.mul_add_e_f64s(load, shape[q], held));
+                    let y = simd.mul_add_e_f64s(alpha[q], mass, given);
                     let y = simd.mul_add_e_f64s(to, ahead, simd.mul_add_e_f64s(from, back, y));
                     moving[q] = less(simd, y, link[q], moving[q]);
                     out[q] = moving[q];
