@@ -44,4 +44,4 @@ pub use model::{HeatLine, HeatModel};
 pub use observation::{Observation, TemperatureField, Temperatures};
 pub use parameters::HeatConfig;
 pub use state::HeatState;
-pub use tensor::{Heat, HeatScratch};
+pub use tensor::{Heat, HeatScratch, WheelStage};

@@ -16,6 +16,7 @@
 //! time formula, flows, bounds, stationary state). `heat`, `weights` and `points` hold the model and read states.
 
 mod heat;
+mod measured;
 mod melt;
 mod mesh;
 mod points;
@@ -26,6 +27,7 @@ mod tests;
 mod weights;
 
 pub use heat::Heat;
+pub use measured::WheelStage;
 pub use step::memory::HeatScratch;
 
 use super::error::HeatError;

@@ -68,11 +68,11 @@ fn uniform_source_in_an_annulus_does_not_feel_the_rotation() {
     assert!((middle[0] / 0.6117486980545853 - 1.0).abs() < 2e-3);
 }
 
-struct AnnulusSystem<'a>(&'a HeatBody, &'a Transport, &'a TridiagonalFactor);
+struct AnnulusSystem<'a>(&'a HeatBody, &'a Transport, &'a mut TridiagonalFactor);
 
 impl LinearSystem for AnnulusSystem<'_> {
     fn apply(&mut self, x: &[f64], out: &mut [f64]) {
-        STATIONARY.multiply(self.0, self.1, [x], [out], Update::Replace);
+        STATIONARY.multiply(self.0, self.1, x, out, Update::Replace);
         STATIONARY.add_curvature(self.0, x, out, &mut Vec::new());
     }
 
@@ -98,7 +98,7 @@ fn rotating_cosine(n: usize, layers: usize, omega: f64) -> ([f64; 2], usize) {
     let mut field = vec![0.0; body.size()];
     body.add_surface_load(0, &load, &mut field);
     let iterations =
-        Gmres::default().solve(&mut AnnulusSystem(&body, &transport, &factor), &mut field, 1e-15, 1e-10).unwrap();
+        Gmres::default().solve(&mut AnnulusSystem(&body, &transport, &mut factor), &mut field, 1e-15, 1e-10).unwrap();
     let across = body.modes.at(R - 0.45);
     let mut c = [0.0; 2];
     for (row, s) in field.chunks(across.len()).zip(&body.streamline.nodes) {
@@ -306,7 +306,7 @@ fn surface_response_equals_solutions_for_unit_loads() {
             let error = trace.iter().enumerate().map(|(i, t)| (t - response.row(i)[k]).abs());
             assert!(error.fold(0.0, f64::max) < 1e-12 * scale);
             let mut product = vec![0.0; body.size()];
-            STATIONARY.multiply(&body, &transport, [&field], [&mut product], Update::Replace);
+            STATIONARY.multiply(&body, &transport, &field, &mut product, Update::Replace);
             let residual = product.iter().zip(&load).fold(0.0_f64, |m, (p, l)| m.max((p - l).abs()));
             assert!(residual < 1e-8 * load.iter().fold(0.0, |m: f64, l| m.max(l.abs())), "residual {residual:.1e}");
         }

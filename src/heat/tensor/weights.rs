@@ -2,7 +2,7 @@
 
 use super::melt::latent::LatentHeat;
 use super::mesh::body::HeatBody;
-use super::mesh::kernels::{dot, products, products_of_three};
+use super::mesh::kernels::{dot, products};
 use super::mesh::layout::HeatLayout;
 use crate::heat::observation::{Observation, Temperatures};
 use crate::heat::state::HeatState;
@@ -89,7 +89,9 @@ impl ObservationWeights {
             values.resize(nodes.len(), 0.0);
             &mut values[..]
         });
-        products_of_three(zone, [&body.modes.surface, weights, moments], out);
+        for (shape, out) in [&body.modes.surface, weights, moments].into_iter().zip(out) {
+            products(zone, shape, out);
+        }
         let mean = |weights: &[f64]| {
             if body.streamline.closed > 0.0 { dot(&seen.sums, weights) / body.streamline.closed } else { 0.0 }
         };

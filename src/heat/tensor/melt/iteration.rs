@@ -17,7 +17,7 @@ use crate::heat::error::HeatError;
 use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::solve::coefficients::StageCoefficients;
 use crate::heat::tensor::solve::line_conduction::LineConduction;
-use crate::heat::tensor::solve::solver::StageSolver;
+use crate::heat::tensor::solve::stage::Stage;
 use crate::linalg::anderson::Anderson;
 
 /// Change of the latent part between two iterations at which it counts as found \[K], and the most that is accepted.
@@ -87,14 +87,14 @@ impl MeltingIteration {
         &mut self,
         law: &LatentHeat,
         layout: &HeatLayout,
-        solver: &mut StageSolver,
+        stage: &mut Stage,
         coefficients: StageCoefficients,
         before: &[f64],
         (line, rate): (&mut LineConduction, &mut Vec<f64>),
     ) -> Result<usize, HeatError> {
         let Self { latent, image, content, base, search, mixing, .. } = self;
         base.clone_from(rate);
-        solver.stage.operators.set_still(layout);
+        stage.operators.set_still(layout);
         let mut change = f64::INFINITY;
         // Where columns are too coarse for a front, the molten part may jump between both searches.
         for (by_nodes, most) in [false, true].into_iter().zip(ITERATIONS) {
@@ -103,8 +103,8 @@ impl MeltingIteration {
             for iteration in 1..=most {
                 rate.clone_from(base);
                 let conduction = StageCoefficients { storage: 0.0, flow: 1.0 };
-                solver.stage.multiply_still(layout, conduction, latent, (&mut *line, &mut rate[..]));
-                solver.solve(layout, coefficients, [(&mut *line, &mut rate[..])])?;
+                stage.operators.multiply_still(layout, conduction, latent, (&mut *line, &mut rate[..]));
+                stage.solve(layout, coefficients, (&mut *line, &mut rate[..]))?;
                 content.clear();
                 content.extend(before.iter().zip(&*rate).map(|(h, k)| h + coefficients.flow * k));
                 law.find(layout, content, image, search);

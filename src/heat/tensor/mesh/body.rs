@@ -24,6 +24,8 @@ pub struct HeatBody {
     pub conductivity: f64,
     /// Coefficient of convection from the surface to the air [W/(m² K)].
     pub convection: f64,
+    /// A field without any temperature; also what lies beyond the ends of an open streamline.
+    pub nothing: Vec<f64>,
 }
 
 impl HeatBody {
@@ -36,8 +38,8 @@ impl HeatBody {
         conductivity: f64,
         convection: f64,
     ) -> Result<Self, HeatError> {
-        let nodal = Nodal::new(&modes)?;
-        Ok(Self { streamline, modes, nodal, heat_capacity, conductivity, convection })
+        let (nodal, nothing) = (Nodal::new(&modes)?, vec![0.0; streamline.len() * modes.len()]);
+        Ok(Self { streamline, modes, nodal, heat_capacity, conductivity, convection, nothing })
     }
 
     /// Number of values of a field.

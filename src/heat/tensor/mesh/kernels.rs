@@ -4,70 +4,156 @@
 //! Results of different machines differ by round-off: by the order of sums, and where a product and a sum are rounded
 //! at once.
 
-use crate::linalg::vectorised::{BLOCK, by_blocks, load, vectorised};
+use crate::linalg::vectorised::vectorised;
 use pulp::Simd;
+
+/// Defines a [`vectorised!`] loop over rows of `$width` numbers. A row is `$stride` blocks of `$B` registers, and the body
+/// goes over the block `$at` of every row. Rows of the usual lengths are one block, as the compiler knows, so that it
+/// needs no checks of bounds. What is known before the loop may be a constant `$C` in it, which callers give as `$flag`.
+macro_rules! rows {
+    (
+        $(#[$meta:meta])*
+        fn $name:ident<$a:lifetime, $S:ident, $B:ident $(, $C:ident = $flag:ident)?>(
+            $simd:ident, [$stride:ident, $at:ident] of $width:expr, $($arg:ident: $type:ty),* $(,)?
+        ) $body:block
+    ) => {
+        $crate::linalg::vectorised::vectorised! {
+            $(#[$meta])*
+            fn $name<$a, $S>($simd, $($flag: bool,)? $($arg: $type),*) {
+                #[inline(always)]
+                #[allow(clippy::too_many_arguments, unused_variables)]
+                fn block<$a, $S: pulp::Simd, const $B: usize $(, const $C: bool)?>(
+                    $simd: $S, $($arg: $type,)* $stride: usize, $at: usize,
+                ) $body
+                let k = $width / $S::F64_LANES;
+                $crate::heat::tensor::mesh::kernels::by_flag!($($flag)?, k, block::<$S>($simd, $($arg),*));
+            }
+        }
+    };
+}
+pub(crate) use rows;
+
+/// Calls a block of [`rows!`] with its constant.
+macro_rules! by_flag {
+    (, $k:ident, $work:ident::<$S:ident>($($arg:expr),*)) => {
+        $crate::heat::tensor::mesh::kernels::by_rows!($k, $work::<$S>($($arg),*))
+    };
+    ($flag:ident, $k:ident, $work:ident::<$S:ident>($($arg:expr),*)) => {
+        if $flag {
+            $crate::heat::tensor::mesh::kernels::by_rows!($k, $work::<$S, true>($($arg),*))
+        } else {
+            $crate::heat::tensor::mesh::kernels::by_rows!($k, $work::<$S, false>($($arg),*))
+        }
+    };
+}
+pub(crate) use by_flag;
+
+/// Calls a block of [`rows!`] for rows of `$k` registers.
+macro_rules! by_rows {
+    ($k:expr, $work:ident::<$S:ident $(, $C:literal)?>($($arg:expr),*)) => {
+        match $k {
+            6 => $work::<$S, 6 $(, $C)?>($($arg),*, 1, 0),
+            7 => $work::<$S, 7 $(, $C)?>($($arg),*, 1, 0),
+            8 => $work::<$S, 8 $(, $C)?>($($arg),*, 1, 0),
+            9 => $work::<$S, 9 $(, $C)?>($($arg),*, 1, 0),
+            10 => $work::<$S, 10 $(, $C)?>($($arg),*, 1, 0),
+            11 => $work::<$S, 11 $(, $C)?>($($arg),*, 1, 0),
+            k => {
+                let block = if k % 4 == 0 { 4 } else if k % 3 == 0 { 3 } else { 1 };
+                for at in 0..k / block {
+                    match block {
+                        4 => $work::<$S, 4 $(, $C)?>($($arg),*, k / 4, at),
+                        3 => $work::<$S, 3 $(, $C)?>($($arg),*, k / 3, at),
+                        _ => $work::<$S, 1 $(, $C)?>($($arg),*, k, at),
+                    }
+                }
+            }
+        }
+    };
+}
+pub(crate) use by_rows;
+
+/// An array in blocks of `B` registers.
+#[inline(always)]
+pub fn blocks<S: Simd, const B: usize>(x: &[f64]) -> &[[S::f64s; B]] {
+    S::as_simd_f64s(x).0.as_chunks().0
+}
+
+/// An array in blocks of `B` registers, to be changed.
+#[inline(always)]
+pub fn blocks_mut<S: Simd, const B: usize>(x: &mut [f64]) -> &mut [[S::f64s; B]] {
+    S::as_mut_simd_f64s(x).0.as_chunks_mut().0
+}
 
 vectorised! {
     /// `x ← x + factor · y`.
     fn add<'a, S>(simd, factor: f64, y: &'a [f64], x: &'a mut [f64]) {
-        let ((y, y_rest), (x, x_rest)) = (S::as_simd_f64s(y), S::as_mut_simd_f64s(x));
-        let many = simd.splat_f64s(factor);
-        let ((x, x_few), (y, y_few)) = (x.as_chunks_mut::<BLOCK>(), y.as_chunks::<BLOCK>());
-        for (x, y) in x.iter_mut().zip(y) {
-            for q in 0..BLOCK {
-                x[q] = simd.mul_add_e_f64s(many, y[q], x[q]);
-            }
-        }
-        x_few.iter_mut().zip(y_few).for_each(|(x, &y)| *x = simd.mul_add_e_f64s(many, y, *x));
-        x_rest.iter_mut().zip(y_rest).for_each(|(x, y)| *x += factor * y);
+        let _ = simd;
+        x.iter_mut().zip(y).for_each(|(x, y)| *x += factor * y);
     }
 }
 
-vectorised! {
-    /// `out ← x + factor · y`.
-    fn sum<'a, S>(simd, x: &'a [f64], factor: f64, y: &'a [f64], out: &'a mut [f64]) {
-        let (x, x_rest) = S::as_simd_f64s(x);
-        let ((y, y_rest), (out, out_rest)) = (S::as_simd_f64s(y), S::as_mut_simd_f64s(out));
-        let many = simd.splat_f64s(factor);
-        let ((x, x_few), (y, y_few)) = (x.as_chunks::<BLOCK>(), y.as_chunks::<BLOCK>());
-        let (out, out_few) = out.as_chunks_mut::<BLOCK>();
-        for ((out, x), y) in out.iter_mut().zip(x).zip(y) {
-            for q in 0..BLOCK {
-                out[q] = simd.mul_add_e_f64s(many, y[q], x[q]);
-            }
-        }
-        for ((out, &x), &y) in out_few.iter_mut().zip(x_few).zip(y_few) {
-            *out = simd.mul_add_e_f64s(many, y, x);
-        }
-        out_rest.iter_mut().zip(x_rest.iter().zip(y_rest)).for_each(|(out, (x, y))| *out = x + factor * y);
-    }
-}
-
-vectorised! {
+rows! {
     /// Adds all rows of `x`, each times its weight, to `sums`.
-    fn add_weighted<'a, S>(simd, weights: &'a [f64], x: &'a [f64], sums: &'a mut [f64]) {
-        let (x, sums) = (S::as_simd_f64s(x).0, S::as_mut_simd_f64s(sums).0);
-        by_blocks!(sums.len(), add_weighted_block::<S>(simd, weights, x, sums));
+    fn add_weighted<'a, S, B>(
+        simd, [stride, at] of sums.len(), weights: &'a [f64], x: &'a [f64], sums: &'a mut [f64]
+    ) {
+        let (x, mut parts) = (&blocks::<S, B>(x)[..weights.len() * stride], blocks::<S, B>(sums)[at]);
+        for i in 0..weights.len() {
+            let (x, weight) = (&x[i * stride + at], simd.splat_f64s(weights[i]));
+            for q in 0..B {
+                parts[q] = simd.mul_add_e_f64s(weight, x[q], parts[q]);
+            }
+        }
+        blocks_mut::<S, B>(sums)[at] = parts;
     }
 }
 
-/// The registers from `at` on of [`add_weighted`].
-#[inline(always)]
-fn add_weighted_block<S: Simd, const B: usize>(
-    simd: S,
-    weights: &[f64],
-    x: &[S::f64s],
-    sums: &mut [S::f64s],
-    at: usize,
-) {
-    let mut parts: [_; B] = load(sums, at);
-    for (x, &weight) in x.chunks_exact(sums.len()).zip(weights) {
-        let (x, weight) = (&x[at..at + B], simd.splat_f64s(weight));
-        for q in 0..B {
-            parts[q] = simd.mul_add_e_f64s(weight, x[q], parts[q]);
+/// A field that a stage takes on.
+pub struct Advance<'a> {
+    /// Rate of the field [K/s], and the time by which it is taken on \[s].
+    pub rate: &'a [f64],
+    pub ahead: f64,
+    /// Field before the stage, and at the beginning of the step.
+    pub from: &'a [f64],
+    pub begin: &'a [f64],
+    /// `∫ N ds` of the nodes \[m], and the largest value of every mode.
+    pub weights: &'a [f64],
+    pub peaks: &'a [f64],
+}
+
+rows! {
+    /// Fills the field `next` after the stage and `∫ rate ds` of every mode; after the last stage of a step also bounds
+    /// of the distances by which the values below every surface node have `moved` in the step.
+    fn advance<'a, S, B, LAST = last>(
+        simd, [stride, at] of sums.len(),
+        stage: &'a Advance<'a>, next: &'a mut [f64], sums: &'a mut [f64], moved: &'a mut [f64],
+    ) {
+        let (n, weights) = (stage.weights.len(), stage.weights);
+        let moved = if LAST { &mut moved[..n] } else { moved };
+        let (rate, from) = (&blocks::<S, B>(stage.rate)[..n * stride], &blocks::<S, B>(stage.from)[..n * stride]);
+        let begin = &blocks::<S, B>(stage.begin)[..n * stride];
+        let next = &mut blocks_mut::<S, B>(next)[..n * stride];
+        let (peaks, ahead) = (blocks::<S, B>(stage.peaks)[at], simd.splat_f64s(stage.ahead));
+        let mut parts = [simd.splat_f64s(0.0); B];
+        for i in 0..n {
+            let (weight, mut distance) = (simd.splat_f64s(weights[i]), simd.splat_f64s(0.0));
+            let j = i * stride + at;
+            let (rate, from, begin, next) = (&rate[j], &from[j], &begin[j], &mut next[j]);
+            for q in 0..B {
+                next[q] = simd.mul_add_e_f64s(ahead, rate[q], from[q]);
+                parts[q] = simd.mul_add_e_f64s(weight, rate[q], parts[q]);
+                if LAST {
+                    let change = simd.abs_f64s(simd.sub_f64s(next[q], begin[q]));
+                    distance = simd.mul_add_e_f64s(change, peaks[q], distance);
+                }
+            }
+            if LAST {
+                moved[i] = if at == 0 { 0.0 } else { moved[i] } + simd.reduce_sum_f64s(distance);
+            }
         }
+        blocks_mut::<S, B>(sums)[at] = parts;
     }
-    sums[at..at + B].copy_from_slice(&parts);
 }
 
 vectorised! {
@@ -83,114 +169,44 @@ vectorised! {
     }
 }
 
-vectorised! {
+rows! {
     /// Scalar products of all rows of `x` with `shape`.
-    fn products<'a, S>(simd, x: &'a [f64], shape: &'a [f64], out: &'a mut [f64]) {
-        let (x, shape) = (S::as_simd_f64s(x).0, S::as_simd_f64s(shape).0);
-        for (x, out) in x.chunks_exact(shape.len()).zip(out) {
-            let mut sums = simd.splat_f64s(0.0);
-            for (&x, &shape) in x.iter().zip(shape) {
-                sums = simd.mul_add_e_f64s(x, shape, sums);
+    fn products<'a, S, B>(simd, [stride, at] of shape.len(), x: &'a [f64], shape: &'a [f64], out: &'a mut [f64]) {
+        let (x, shape) = (&blocks::<S, B>(x)[..out.len() * stride], blocks::<S, B>(shape)[at]);
+        for i in 0..out.len() {
+            let (x, mut sum) = (&x[i * stride + at], simd.splat_f64s(0.0));
+            for q in 0..B {
+                sum = simd.mul_add_e_f64s(x[q], shape[q], sum);
             }
-            *out = simd.reduce_sum_f64s(sums);
+            out[i] = if at == 0 { 0.0 } else { out[i] } + simd.reduce_sum_f64s(sum);
         }
     }
 }
 
-vectorised! {
-    /// Scalar products of all rows of `x` with three shapes.
-    fn products_of_three<'a, S>(simd, x: &'a [f64], shapes: [&'a [f64]; 3], out: [&'a mut [f64]; 3]) {
-        let ([a, b, c], x) = (shapes.map(|shape| S::as_simd_f64s(shape).0), S::as_simd_f64s(x).0);
-        for (i, x) in x.chunks_exact(a.len()).enumerate() {
-            let mut sums = [simd.splat_f64s(0.0); 3];
-            for (&x, ((&a, &b), &c)) in x.iter().zip(a.iter().zip(b).zip(c)) {
-                sums[0] = simd.mul_add_e_f64s(x, a, sums[0]);
-                sums[1] = simd.mul_add_e_f64s(x, b, sums[1]);
-                sums[2] = simd.mul_add_e_f64s(x, c, sums[2]);
-            }
-            (0..3).for_each(|k| out[k][i] = simd.reduce_sum_f64s(sums[k]));
-        }
-    }
-}
-
-vectorised! {
-    /// `Σ |bₘ − aₘ| weightₘ` of all rows of `a` and `b`.
-    fn weighted_changes<'a, S>(simd, a: &'a [f64], b: &'a [f64], weights: &'a [f64], out: &'a mut [f64]) {
-        let (a, b, weights) = (S::as_simd_f64s(a).0, S::as_simd_f64s(b).0, S::as_simd_f64s(weights).0);
-        let k = weights.len();
-        for ((a, b), out) in a.chunks_exact(k).zip(b.chunks_exact(k)).zip(out) {
-            let mut sum = simd.splat_f64s(0.0);
-            for ((&a, &b), &weight) in a.iter().zip(b).zip(weights) {
-                sum = simd.mul_add_e_f64s(simd.abs_f64s(simd.sub_f64s(b, a)), weight, sum);
-            }
-            *out = simd.reduce_sum_f64s(sum);
-        }
-    }
-}
-
-vectorised! {
-    /// Lowest and highest value of all rows of `modes` numbers at the nodes of all `blocks`: values of the first modes,
-    /// as many as count there, at [`NODES`] nodes, mode by mode.
-    fn extremes<'a, S>(simd, x: &'a [f64], modes: usize, blocks: &'a [Vec<f64>]) -> [f64; 2] {
-        let mut range = [f64::INFINITY, f64::NEG_INFINITY].map(|end| simd.splat_f64s(end));
+rows! {
+    /// Widens `range` by the values of all rows of `x` at the nodes where the modes have the values `shapes`, mode by
+    /// mode and those of a mode as many as `nodes`.
+    fn extremes<'a, S, B>(
+        simd, [stride, at] of nodes, x: &'a [f64], shapes: &'a [f64], nodes: usize, range: &'a mut [f64; 2]
+    ) {
+        let (shapes, modes) = (blocks::<S, B>(shapes), shapes.len() / nodes);
+        let shapes = &shapes[..modes * stride];
         for row in x.chunks_exact(modes) {
-            for block in blocks {
-                let shapes = S::as_simd_f64s(block).0;
-                let ends = match NODES / S::F64_LANES {
-                    1 => extremes_of::<S, 1>(simd, row, shapes),
-                    2 => extremes_of::<S, 2>(simd, row, shapes),
-                    4 => extremes_of::<S, 4>(simd, row, shapes),
-                    8 => extremes_of::<S, 8>(simd, row, shapes),
-                    _ => extremes_of::<S, NODES>(simd, row, shapes),
-                };
-                range = [simd.min_f64s(range[0], ends[0]), simd.max_f64s(range[1], ends[1])];
+            let mut sums = [simd.splat_f64s(0.0); B];
+            for i in 0..modes {
+                let (x, shape) = (simd.splat_f64s(row[i]), &shapes[i * stride + at]);
+                for q in 0..B {
+                    sums[q] = simd.mul_add_e_f64s(x, shape[q], sums[q]);
+                }
             }
-        }
-        [simd.reduce_min_f64s(range[0]), simd.reduce_max_f64s(range[1])]
-    }
-}
-
-/// Nodes of a block, whose values are summed at a time.
-pub const NODES: usize = 16;
-
-vectorised! {
-    /// Values of one row at the nodes of all blocks of [`extremes`].
-    fn values_at<'a, S>(simd, row: &'a [f64], blocks: &'a [Vec<f64>], out: &'a mut [f64]) {
-        for (block, out) in blocks.iter().zip(out.chunks_exact_mut(NODES)) {
-            let (shapes, out) = (S::as_simd_f64s(block).0, S::as_mut_simd_f64s(out).0);
-            match NODES / S::F64_LANES {
-                1 => out.copy_from_slice(&sums_of::<S, 1>(simd, row, shapes)),
-                2 => out.copy_from_slice(&sums_of::<S, 2>(simd, row, shapes)),
-                4 => out.copy_from_slice(&sums_of::<S, 4>(simd, row, shapes)),
-                8 => out.copy_from_slice(&sums_of::<S, 8>(simd, row, shapes)),
-                _ => out.copy_from_slice(&sums_of::<S, NODES>(simd, row, shapes)),
+            let mut ends = [sums[0]; 2];
+            for sum in sums {
+                ends = [simd.min_f64s(ends[0], sum), simd.max_f64s(ends[1], sum)];
             }
+            let [low, high] = [simd.reduce_min_f64s(ends[0]), simd.reduce_max_f64s(ends[1])];
+            *range = [range[0].min(low), range[1].max(high)];
         }
     }
-}
-
-/// Sums of `B` registers of all shapes, each times its number in `row`.
-#[inline(always)]
-fn sums_of<S: Simd, const B: usize>(simd: S, row: &[f64], shapes: &[S::f64s]) -> [S::f64s; B] {
-    let mut sums = [simd.splat_f64s(0.0); B];
-    for (&x, shape) in row.iter().zip(shapes.as_chunks::<B>().0) {
-        let x = simd.splat_f64s(x);
-        for q in 0..B {
-            sums[q] = simd.mul_add_e_f64s(x, shape[q], sums[q]);
-        }
-    }
-    sums
-}
-
-/// Extremes of [`sums_of`].
-#[inline(always)]
-fn extremes_of<S: Simd, const B: usize>(simd: S, row: &[f64], shapes: &[S::f64s]) -> [S::f64s; 2] {
-    let sums = sums_of::<S, B>(simd, row, shapes);
-    let mut ends = [sums[0]; 2];
-    for &sum in &sums[1..] {
-        ends = [simd.min_f64s(ends[0], sum), simd.max_f64s(ends[1], sum)];
-    }
-    ends
 }
 
 /// Scalar product of vectors whose length is a multiple of four.

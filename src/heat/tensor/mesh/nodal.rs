@@ -1,7 +1,7 @@
 //! Temperatures at the nodes across the streamlines, where bounds and melting act, and the way back to the modes.
 
 use super::depth_modes::{DepthModes, PADDING};
-use super::kernels::{self, dot, weighted_changes};
+use super::kernels::{self, dot};
 use crate::heat::error::HeatError;
 use crate::heat::state::RowBounds;
 use crate::linalg::vectorised::add_columns;
@@ -14,14 +14,12 @@ pub struct Nodal {
     modes: usize,
     /// Values of the modes at the nodes, mode by mode, where the first node fills up the last register.
     shapes: Vec<f64>,
-    /// Values at blocks of nodes of the modes that count there: the steep ones live in the thin layers at the surface.
-    blocks: Vec<Vec<f64>>,
     /// Coefficients of a field that is 1 at one node, node by node.
     to_modes: Vec<f64>,
     /// `∫ g N dz` of every node: its share of the heat content \[m].
     pub weights: Vec<f64>,
     /// Largest value of every mode at a node.
-    peaks: Vec<f64>,
+    pub peaks: Vec<f64>,
 }
 
 impl Nodal {
@@ -33,7 +31,6 @@ impl Nodal {
         let mut nodal = Self {
             modes: nm,
             shapes: modes.shapes.as_slice().chunks_exact(size).flat_map(filled_up).collect(),
-            blocks: blocks(modes),
             to_modes: vec![0.0; size * nm],
             weights: Vec::with_capacity(size),
             peaks: modes.shapes.column_iter().map(|column| column.amax()).collect(),
@@ -68,18 +65,6 @@ impl Nodal {
         add_columns(1.0, &self.shapes, self.shapes.len() / self.modes, row, values);
     }
 
-    /// Room that [`Self::noticed_values`] needs.
-    pub fn room(&self) -> usize {
-        self.blocks.len() * kernels::NODES
-    }
-
-    /// Values at the nodes below one surface node in the first part of the `room`, but for what is negligible in
-    /// [`Self::extremes`].
-    pub fn noticed_values<'a>(&self, row: &[f64], room: &'a mut [f64]) -> &'a mut [f64] {
-        kernels::values_at(row, &self.blocks, room);
-        &mut room[..self.weights.len()]
-    }
-
     /// Adds a field given at the nodes below one surface node to its modes.
     pub fn add(&self, values: &[f64], row: &mut [f64]) {
         for (value, column) in values.iter().zip(self.to_modes.chunks_exact(self.modes)) {
@@ -91,39 +76,27 @@ impl Nodal {
 
     /// Lowest and highest value of a field at its nodes, or of the part of it below some surface nodes.
     pub fn extremes(&self, field: &[f64]) -> [f64; 2] {
-        kernels::extremes(field, self.modes, &self.blocks)
+        let mut range = EMPTY;
+        kernels::extremes(field, &self.shapes, self.shapes.len() / self.modes, &mut range);
+        range
     }
 
-    /// Takes the bounds of the `rows` of the field `from` on to the field `to`, and returns those of all rows: one is
-    /// looked at where it may have left the bounds `allowed`, or has moved by more than `slight`.
-    pub fn follow(&self, [from, to]: [&[f64]; 2], rows: &mut [RowBounds], allowed: [f64; 2], slight: f64) -> [f64; 2] {
+    /// Bounds of all `rows` of a field from what is known of each: one is looked at where it may have left the bounds
+    /// `allowed`, or has moved by more than `slight`.
+    pub fn look(&self, field: &[f64], rows: &mut [RowBounds], allowed: [f64; 2], slight: f64) -> [f64; 2] {
         let mut range = EMPTY;
-        let block = ROWS * self.modes;
-        for ((rows, from), to) in rows.chunks_mut(ROWS).zip(from.chunks(block)).zip(to.chunks(block)) {
-            // The largest changes at any node below, or more.
-            let mut changes = [0.0; ROWS];
-            weighted_changes(from, to, &self.peaks, &mut changes);
-            for ((row, change), to) in rows.iter_mut().zip(changes).zip(to.chunks_exact(self.modes)) {
-                row.moved += change;
-                let bounds = row.range();
-                // Written so that NaN is not taken for known.
-                let clear = row.moved <= slight && bounds[0] >= allowed[0] && bounds[1] <= allowed[1];
-                if !clear {
-                    *row = RowBounds { found: self.extremes(to), moved: 0.0 };
-                }
-                range = joined(range, row.range());
+        for (row, values) in rows.iter_mut().zip(field.chunks_exact(self.modes)) {
+            let bounds = row.range();
+            // Written so that NaN is not taken for known.
+            let clear = row.moved <= slight && bounds[0] >= allowed[0] && bounds[1] <= allowed[1];
+            if !clear {
+                *row = RowBounds { found: self.extremes(values), moved: 0.0 };
             }
+            range = joined(range, row.range());
         }
         range
     }
 }
-
-/// Value of a mode relative to its largest one below which it does not count where a field is searched for its
-/// extremes \[1].
-const NEGLIGIBLE: f64 = 1e-9;
-
-/// Rows whose changes are found at a time.
-const ROWS: usize = 16;
 
 /// Bounds of no values.
 const EMPTY: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
@@ -131,23 +104,6 @@ const EMPTY: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 /// Bounds of two sets of values. Comparisons, not `min` and `max`: each compiles to one instruction.
 pub fn joined(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [if b[0] < a[0] { b[0] } else { a[0] }, if b[1] > a[1] { b[1] } else { a[1] }]
-}
-
-/// Values of the modes at blocks of [`kernels::NODES`] nodes, mode by mode; the last node fills up the last block. Modes
-/// count that are noticed in it or below.
-fn blocks(modes: &DepthModes) -> Vec<Vec<f64>> {
-    let size = modes.shapes.nrows();
-    let block = |first: usize| {
-        let noticed = |column: &[f64]| {
-            let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-            largest(&column[first..]) > NEGLIGIBLE * largest(column)
-        };
-        let columns = modes.shapes.as_slice().chunks_exact(size);
-        let count = columns.clone().rposition(noticed).map_or(0, |mode| mode + 1);
-        let nodes = (first..first + kernels::NODES).map(|node| node.min(size - 1));
-        columns.take(count).flat_map(|column| nodes.clone().map(|node| column[node])).collect()
-    };
-    (0..size).step_by(kernels::NODES).map(block).collect()
 }
 
 /// The values `column` at the nodes, with the first one again until registers are full.

@@ -8,10 +8,9 @@
 //!
 //! cyclic in the wheel.
 
-use super::rows;
+use super::passes::{self, Operator};
 use super::transport::Transport;
 use crate::heat::tensor::mesh::body::HeatBody;
-use crate::heat::tensor::mesh::kernels;
 use crate::linalg::Update;
 
 /// Weights of storage and flow in the matrix of a stage: `S = μ ρc M̃ + β A`.
@@ -29,25 +28,16 @@ impl StageCoefficients {
         [self.storage * body.heat_capacity, self.flow * body.conductivity]
     }
 
-    /// `out ← S x` with the operator of the modal solver, or `out ← out + S x`, for all fields x.
-    pub fn multiply<const L: usize>(
-        &self,
-        body: &HeatBody,
-        transport: &Transport,
-        fields: [&[f64]; L],
-        mut out: [&mut [f64]; L],
-        update: Update,
-    ) {
-        let [storage, flow] = self.mass_weight(body);
-        let weights = [storage, flow, self.flow];
-        let products = out.each_mut().map(|out| &mut **out);
-        rows::tridiagonal_product(transport, &body.modes.values, weights, fields, products, update);
-        if let Some((node, entry)) = transport.entry {
-            let row = node * body.modes.len()..(node + 1) * body.modes.len();
-            for (x, out) in fields.iter().zip(out) {
-                kernels::add(self.flow * entry, &x[row.clone()], &mut out[row.clone()]);
-            }
-        }
+    /// The matrix of the modal solver.
+    pub fn operator<'a>(&self, body: &'a HeatBody, transport: &'a Transport) -> Operator<'a> {
+        let [storage, conduction] = self.mass_weight(body);
+        Operator { body, transport, weights: [storage, conduction, self.flow] }
+    }
+
+    /// `out ← S x` with the operator of the modal solver, or `out ← out + S x`.
+    pub fn multiply(&self, body: &HeatBody, transport: &Transport, x: &[f64], out: &mut [f64], update: Update) {
+        let (last, nothing) = (body.streamline.len() - 1, &body.nothing[..]);
+        passes::load(update == Update::Add, &self.operator(body, transport), last, [nothing; 2], x, out);
     }
 
     /// `out ← out + β k K ⊗ ∫(1/g − g)NN x`: the part of the conduction along the streamlines that the modal solver

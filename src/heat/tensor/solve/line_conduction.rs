@@ -16,8 +16,9 @@ pub struct ContactSide {
     pub inverted: ContactBands,
     /// Surface temperatures at the contact nodes.
     pub trace: Vec<f64>,
-    /// Load at surface nodes.
+    /// Load at surface nodes, of conduction through the contact and of a stage.
     pub load: Vec<f64>,
+    pub surface: Vec<f64>,
     /// Field and its rate, summed along the streamlines.
     pub sums: [Vec<f64>; 2],
 }
@@ -122,8 +123,21 @@ impl LineConduction {
         self.set_jump(layout, x);
         let bodies = layout.bodies().into_iter().zip(&mut self.sides).zip([flow, -flow]).zip(layout.split_mut(out));
         for (((body, side), factor), out) in bodies {
-            side.present.set_load(factor, &self.jump, &mut side.load);
+            side.load.clear();
+            side.load.resize(self.nodes.len(), 0.0);
+            side.present.add_load(factor, &self.jump, &mut side.load);
             body.add_surface_load(body.streamline.zone + self.nodes.start, &side.load, out);
+        }
+    }
+
+    /// Adds the heat that enters both bodies through the contact in the field `x` to their surface loads.
+    pub fn load_conduction(&mut self, layout: &HeatLayout, x: &[f64]) {
+        if !self.coupled() {
+            return;
+        }
+        self.set_jump(layout, x);
+        for ((body, side), factor) in layout.bodies().into_iter().zip(&mut self.sides).zip([-1.0, 1.0]) {
+            side.present.add_load(factor, &self.jump, &mut side.surface[body.streamline.zone + self.nodes.start..]);
         }
     }
 
@@ -163,7 +177,9 @@ impl LineConduction {
         difference(&self.sides, &mut self.growth);
         self.coupling.solve(&mut self.growth);
         for (side, flow) in self.sides.iter_mut().zip([-flow, flow]) {
-            side.inverted.set_load(flow, &self.growth, &mut side.load);
+            side.load.clear();
+            side.load.resize(self.growth.len(), 0.0);
+            side.inverted.add_load(flow, &self.growth, &mut side.load);
         }
     }
 }

@@ -21,8 +21,11 @@ pub struct Transport {
     pub exit: Option<(usize, f64)>,
     /// `τ v / h` per element [1].
     pub upwind: Vec<f64>,
-    /// Row by row the lower band of `M̃`, the sum of its row and its upper band; the lower and the upper band of `F`.
+    /// Row by row the lower band of `M̃`, the sum of its row and its upper band; the lower and the upper band of `F`, among
+    /// them the stream's entry: the link of an end with a node beyond it at zero.
     pub rows: Vec<[f64; 5]>,
+    /// True on a closed streamline.
+    pub closed: bool,
 }
 
 impl Transport {
@@ -53,6 +56,7 @@ impl Transport {
         let open = streamline.closed == 0.0 && speed != 0.0;
         self.entry = open.then_some((ends.0, advection.abs()));
         self.exit = open.then_some((ends.1, advection.abs()));
+        self.closed = streamline.closed > 0.0;
         self.set_rows();
     }
 
@@ -66,6 +70,9 @@ impl Transport {
                 .zip(flow_lower.iter().zip(&*flow_upper))
                 .map(|(((&below, middle), &above), (&from, &to))| [below, below + middle + above, above, from, to]),
         );
+        if let Some((node, stream)) = self.entry {
+            rows[node][if node == 0 { 3 } else { 4 }] -= stream;
+        }
     }
 
     /// Replaces the matrices by those of conduction alone: the tilted mass of `moving`, and `F = k K` without a stream.
@@ -81,7 +88,7 @@ impl Transport {
             self.flow_upper[e] -= conductivity / h;
             self.flow_lower[streamline.after(e)] -= conductivity / h;
         }
-        (self.entry, self.exit) = (None, None);
+        (self.entry, self.exit, self.closed) = (None, None, moving.closed);
         self.set_rows();
     }
 

@@ -1,11 +1,12 @@
 //! Factors of the tridiagonal systems of one implicit step, one system per mode across the streamlines.
 
 use super::coefficients::StageCoefficients;
+use super::passes::{self, Operator};
 use super::ring::{Carried, Ring, factorise, factorise_filled};
-use super::rows;
 use super::transport::Transport;
 use crate::heat::error::HeatError;
 use crate::heat::tensor::mesh::body::HeatBody;
+use crate::linalg::Update;
 use std::ops::Range;
 
 /// Factors of the tridiagonal systems of all modes.
@@ -30,7 +31,7 @@ pub struct TridiagonalFactor {
     last: usize,
     alpha: Vec<f64>,
     carried: Carried,
-    /// Two rows that recurrences carry along.
+    /// Solution at the last node.
     moving: Vec<f64>,
 }
 
@@ -54,10 +55,11 @@ impl TridiagonalFactor {
         for values in [&mut self.w, &mut self.r, &mut self.inverse] {
             values.resize(n * nm, 0.0);
         }
-        self.moving.resize(2 * nm, 0.0);
         self.carried.begin(nm);
-        self.column.clear();
-        self.row.clear();
+        for fill in [&mut self.column, &mut self.row] {
+            fill.clear();
+            fill.reserve(n * nm);
+        }
         let ring = Ring { transport, alpha: &self.alpha, flow: coefficients.flow, last: self.last };
         let (mut step, filled) = (0, n - 2);
         while self.carried.alive && step < filled {
@@ -88,83 +90,76 @@ impl TridiagonalFactor {
 
     /// `x ← S⁻¹ x`.
     #[cfg(test)]
-    pub fn solve(&self, body: &HeatBody, x: &mut [f64]) {
-        self.eliminate(body, [&mut *x]);
-        self.substitute(body, [x]);
+    pub fn solve(&mut self, body: &HeatBody, x: &mut [f64]) {
+        self.eliminate(body, x);
+        self.substitute(body, x);
     }
 
-    /// The first half of a solution in all `fields` x: `x ← (1 + w + row)⁻¹ x`.
-    pub fn eliminate<const L: usize>(&self, body: &HeatBody, fields: [&mut [f64]; L]) {
-        let nm = body.modes.len();
-        let (end, first) = (self.last * nm, (self.last + 1) * nm);
-        let mut parts = fields.map(|x| split(x, end, nm));
-        let (row, rest) = self.row.split_at(self.row.len().min(self.w.len() - first));
-        if first < self.w.len() {
-            let after = parts.each_mut().map(|[_, last, after]| (&mut **after, &mut **last));
-            rows::eliminate(&self.w[first + nm..], row, after, nm);
-            for [before, last, after] in &mut parts {
-                let (around, next) = (&after[after.len() - nm..], if end > 0 { before } else { last });
-                (0..nm).for_each(|m| next[m] -= self.w[m] * around[m]);
-            }
-        }
-        if end > 0 {
-            let before = parts.each_mut().map(|[before, last, _]| (&mut **before, &mut **last));
-            rows::eliminate(&self.w[nm..end], rest, before, nm);
-            for [before, last, _] in &mut parts {
-                let moving = &before[end - nm..];
-                (0..nm).for_each(|m| last[m] -= self.w[end + m] * moving[m]);
-            }
-        }
+    /// The first half of a solution, `x ← (1 + w + row)⁻¹ x`.
+    pub fn eliminate(&mut self, body: &HeatBody, x: &mut [f64]) {
+        passes::eliminate(self.last, &self.w, x, body.modes.len());
+        self.take_filled(body, x);
     }
 
-    /// The second half of a solution in all `fields`.
-    pub fn substitute<const L: usize>(&self, body: &HeatBody, fields: [&mut [f64]; L]) {
-        let nm = body.modes.len();
-        let (end, first) = (self.last * nm, (self.last + 1) * nm);
-        let mut parts = fields.map(|x| split(x, end, nm));
-        for [_, last, _] in &mut parts {
-            last.iter_mut().zip(&self.inverse[end..]).for_each(|(x, d)| *x *= d);
-        }
-        let (column, rest) = self.column.split_at(self.column.len().min(self.w.len() - first));
-        let before = parts.each_mut().map(|[before, last, _]| (&mut **before, [&**last; 2]));
-        rows::substitute([&self.inverse, &self.r, rest], before, nm);
-        if first < self.inverse.len() {
-            let after = parts.each_mut().map(|[before, last, after]| {
-                let next = if end > 0 { &before[..nm] } else { &**last };
-                (&mut **after, [next, &**last])
-            });
-            rows::substitute([&self.inverse[first..], &self.r[first..], column], after, nm);
-        }
+    /// The first half of a solution for the product of a matrix with the field `x` and the surface `loads` of all nodes
+    /// of `body`; what `out` holds is replaced, or a load, too.
+    pub fn load(
+        &mut self,
+        body: &HeatBody,
+        operator: &Operator,
+        loads: &[f64],
+        x: &[f64],
+        out: &mut [f64],
+        update: Update,
+    ) {
+        passes::load(update == Update::Add, operator, self.last, [&self.w, loads], x, out);
+        self.take_filled(body, out);
+    }
+
+    /// Takes the part of the filled row from the last node.
+    fn take_filled(&mut self, body: &HeatBody, x: &mut [f64]) {
+        let (nm, end) = (body.modes.len(), self.last * body.modes.len());
+        let (before, rest) = x.split_at_mut(end);
+        let (last, after) = rest.split_at_mut(nm);
+        let (of_after, of_before) = self.row.split_at(self.row.len().min(after.len()));
+        passes::take(of_after, after, last);
+        passes::take(of_before, before, last);
+    }
+
+    /// The second half of a solution.
+    pub fn substitute(&mut self, body: &HeatBody, x: &mut [f64]) {
+        let (nm, end) = (body.modes.len(), self.last * body.modes.len());
+        let (before, rest) = x.split_at_mut(end);
+        let (last, after) = rest.split_at_mut(nm);
+        self.moving.clear();
+        self.moving.extend(last.iter().zip(&self.inverse[end..]).map(|(x, d)| x * d));
+        let (of_after, of_before) = self.column.split_at(self.column.len().min(after.len()));
+        passes::leave(of_after, &self.moving, after);
+        passes::leave(of_before, &self.moving, before);
+        passes::substitute([&self.inverse, &self.r], x, nm, self.last);
     }
 
     /// Surface values of the solution at the nodes `contact`, after [`Self::eliminate`]; they end with the node that
     /// was eliminated last, or before it.
-    pub fn trace(&mut self, body: &HeatBody, contact: &Range<usize>, x: &[f64], out: &mut Vec<f64>) {
+    pub fn surface(&self, body: &HeatBody, contact: &Range<usize>, x: &[f64], out: &mut Vec<f64>) {
         let nm = body.modes.len();
         let rows = contact.start * nm..(self.last + 1) * nm;
         let column = reaching(&self.column, self.inverse.len() - rows.len());
         let factors = [&self.inverse[rows.clone()], &self.r[rows.clone()], column];
         out.resize(rows.len() / nm, 0.0);
-        rows::substituted_surface(factors, &x[rows], &mut self.moving, &body.modes.surface, out);
+        passes::surface(factors, &x[rows], &body.modes.surface, out);
         out.truncate(contact.len());
     }
 
     /// Adds a load on the surface at the nodes from `first` on after [`Self::eliminate`]; where it ends before the node
     /// that was eliminated last, it is filled up with zeros.
-    pub fn add_eliminated(&self, body: &HeatBody, first: usize, load: &mut Vec<f64>, x: &mut [f64]) {
+    pub fn add_load(&self, body: &HeatBody, first: usize, load: &mut Vec<f64>, x: &mut [f64]) {
         let nm = body.modes.len();
         let rows = first * nm..(self.last + 1) * nm;
         load.resize(rows.len() / nm, 0.0);
         let factors = [&self.w[rows.clone()], reaching(&self.row, self.inverse.len() - rows.len())];
-        rows::add_eliminated(factors, load, &body.modes.surface, &mut x[rows]);
+        passes::add_load(factors, load, &body.modes.surface, &mut x[rows]);
     }
-}
-
-/// Parts of a field with `nm` modes before the node that begins at `end`, at it, and after it.
-fn split(x: &mut [f64], end: usize, nm: usize) -> [&mut [f64]; 3] {
-    let (before, rest) = x.split_at_mut(end);
-    let (last, after) = rest.split_at_mut(nm);
-    [before, last, after]
 }
 
 /// Part of a filled column or row from the place `first` on; nothing if it has faded before.

@@ -39,35 +39,36 @@ pub fn data(layout: &HeatLayout, state: &HeatState, exchange: &Exchange) -> [f64
 /// Fills the bounds of the nodal values of `next`, exactly where they are needed: beyond the data, near absolute zero,
 /// and from the temperature `melts` \[K] on.
 ///
-/// Below every surface node the bounds before hold, wider by what may have changed, until that has become too much.
-pub fn set_range(layout: &HeatLayout, state: &HeatState, next: &mut HeatState, melts: f64) {
+/// Below every surface node the bounds before hold, wider by how far values may have `moved`, until that has become too
+/// much.
+pub fn set_range(layout: &HeatLayout, state: &HeatState, moved: &[f64], next: &mut HeatState, melts: f64) {
     let [coldest, hottest] = next.data;
     let low = (coldest - MARGIN).max(-NEAR_ZERO * layout.config.thermal.reference);
-    next.rows.clone_from(&state.rows);
-    follow(layout, Some(&state.values), next, [low, melts.min(hottest + MARGIN)]);
+    next.rows.clear();
+    let moved = state.rows.iter().zip(moved);
+    next.rows.extend(moved.map(|(row, change)| RowBounds { moved: row.moved + change, ..*row }));
+    look(layout, next, [low, melts.min(hottest + MARGIN)]);
 }
 
 /// Fills the bounds of the nodal values of `state` after a look at all of them.
 pub fn search(layout: &HeatLayout, state: &mut HeatState) {
     state.rows.clear();
-    follow(layout, None, state, [f64::NEG_INFINITY, f64::INFINITY]);
+    look(layout, state, [f64::NEG_INFINITY, f64::INFINITY]);
 }
 
-/// Takes the bounds of the field `from` that `next` holds on to its own field (see [`Nodal::follow`]); without one they
-/// are those of the own field already.
+/// Fills the bounds of the nodal values of a state from those below every surface node (see [`Nodal::look`]).
 ///
-/// [`Nodal::follow`]: crate::heat::tensor::mesh::nodal::Nodal::follow
-fn follow(layout: &HeatLayout, from: Option<&[f64]>, next: &mut HeatState, allowed: [f64; 2]) {
-    let HeatState { values, rows, range, .. } = next;
+/// [`Nodal::look`]: crate::heat::tensor::mesh::nodal::Nodal::look
+fn look(layout: &HeatLayout, state: &mut HeatState, allowed: [f64; 2]) {
+    let HeatState { values, rows, range, .. } = state;
     let count = layout.bodies().map(|body| body.streamline.len());
     if rows.len() != count[0] + count[1] {
         rows.clear();
         rows.resize(count[0] + count[1], RowBounds::UNKNOWN);
     }
     let rows: [_; 2] = rows.split_at_mut(count[0]).into();
-    let fields = layout.split(from.unwrap_or(values)).into_iter().zip(layout.split(values));
-    let ranges = layout.bodies().into_iter().zip(fields).zip(rows);
-    let ranges = ranges.map(|((body, (from, to)), rows)| body.nodal.follow([from, to], rows, allowed, MARGIN));
+    let ranges = layout.bodies().into_iter().zip(layout.split(values)).zip(rows);
+    let ranges = ranges.map(|((body, field), rows)| body.nodal.look(field, rows, allowed, MARGIN));
     *range = ranges.reduce(joined).unwrap_or_default();
 }
 

@@ -42,7 +42,8 @@ impl LineConduction {
         }
     }
 
-    /// Adds `weight` times the heat flows of a stage to their mean; the sums are those of `ends.temperature`.
+    /// Adds `weight` times the heat flows of a stage to their mean; the sums are those of `ends.temperature` and of its
+    /// rate, if it has one.
     pub fn add_flows(
         &mut self,
         stage: &StageOperators,
@@ -118,12 +119,9 @@ impl BodyOperator {
     ) -> BodyFlows {
         let modes = &body.modes;
         let [now, change] = sums;
-        match rate {
-            Some(rate) => body.integrate(rate, change),
-            None => {
-                change.clear();
-                change.resize(modes.len(), 0.0);
-            }
+        if rate.is_none() {
+            change.clear();
+            change.resize(modes.len(), 0.0);
         }
         let (mut stored, mut air, mut fixed) = (0.0, 0.0, 0.0);
         for m in 0..modes.len() {

@@ -15,26 +15,26 @@
 //! much, and where steel melts.
 //!
 //! Lines side by side have the same operators where they take the same formula: what belongs to speeds and step size is
-//! prepared once, and their fields go through it in pairs.
+//! prepared once.
 
 use super::arrival::arrive;
 use super::bounds::{data, search, set_range, swings};
 use super::flows::StageEnd;
-use super::history::jumps;
 use super::limiter::keep_bounds;
-use super::load_vector::add_loads;
+use super::load_vector::{add_others, add_surface_loads, has_others, set_surface_loads};
 use super::memory::{HeatScratch, LineWork, StepWork};
-use super::plan::StepPlan;
+use super::plan::{StepPlan, jumps};
 use crate::heat::error::HeatError;
 use crate::heat::flows::HeatFlows;
 use crate::heat::limits::{check_speeds, check_step};
 use crate::heat::model::HeatLine;
 use crate::heat::state::HeatState;
 use crate::heat::tensor::heat::Heat;
-use crate::heat::tensor::mesh::kernels;
-use crate::heat::tensor::solve::coefficients::StageCoefficients;
+use crate::heat::tensor::mesh::kernels::{self, Advance};
 use crate::heat::tensor::solve::line_conduction::contact_nodes;
-use crate::heat::tensor::solve::operators::{StageKey, StageOperators};
+use crate::heat::tensor::solve::operators::StageKey;
+use crate::heat::tensor::solve::stage::RATE;
+use crate::linalg::Update;
 
 /// A step of [`HeatModel`](crate::heat::HeatModel).
 pub fn advance(
@@ -61,19 +61,8 @@ pub fn advance(
         contact = around(contact, contact_nodes(&own.loads.conductance));
     }
     own.iter_mut().for_each(|own| own.plan.contact = contact);
-    let mut first = 0;
-    while first < lines.len() {
-        let (lines, begin, own) = (&mut lines[first..], &begin[first..], &mut own[first..]);
-        first += match (lines.first_chunk_mut::<2>(), begin.first_chunk::<2>(), own.first_chunk_mut::<2>()) {
-            (Some(lines), Some(begin), Some(own)) if together(lines, begin, own) => {
-                integrate(heat, lines, begin, own, work)?;
-                2
-            }
-            _ => {
-                integrate_one(heat, &mut lines[0], &begin[0], &mut own[0], work)?;
-                1
-            }
-        };
+    for ((line, begin), own) in lines.iter_mut().zip(&*begin).zip(&mut *own) {
+        integrate(heat, line, begin, own, work)?;
     }
     for ((line, begin), own) in lines.iter_mut().zip(&*begin).zip(own) {
         finish(heat, line, begin, own, work)?;
@@ -94,12 +83,6 @@ fn around(a: [usize; 2], b: [usize; 2]) -> [usize; 2] {
 /// State in which the step of a line begins.
 fn beginning<'a>(line: &HeatLine<'a>, begin: &'a HeatState, own: &LineWork) -> &'a HeatState {
     if own.arrived { begin } else { line.state }
-}
-
-/// Test that two lines have the same operators.
-fn together(lines: &[HeatLine; 2], begin: &[HeatState; 2], own: &[LineWork; 2]) -> bool {
-    let key = |i: usize| own[i].plan.key(beginning(&lines[i], &begin[i], &own[i]));
-    own.iter().all(|own| !own.plan.melts) && key(0) == key(1)
 }
 
 /// Fills loads and plan of a line.
@@ -140,11 +123,11 @@ fn finish(
     let (layout, plan) = (&heat.layout, own.plan);
     let state = beginning(line, begin, own);
     let solidus = heat.latent.as_ref().map_or(f64::INFINITY, |latent| latent.melting.solidus);
-    set_range(layout, state, line.next, solidus);
+    set_range(layout, state, &own.moved, line.next, solidus);
     let melts = heat.melting_within(line.next.range).is_some();
     if !plan.melts && (melts || (plan.smooth && swings(line.next))) {
         own.plan = StepPlan { smooth: false, melts, ..plan };
-        integrate_one(heat, line, begin, own, work)?;
+        integrate(heat, line, begin, own, work)?;
         search(layout, line.next);
     }
     let next = &mut *line.next;
@@ -163,118 +146,107 @@ fn finish(
     Ok(())
 }
 
-/// [`integrate`] for one line.
-fn integrate_one(
+/// The time formula from the field of the state in which the step of a line begins to that of the next one.
+fn integrate(
     heat: &Heat,
     line: &mut HeatLine,
     begin: &HeatState,
     own: &mut LineWork,
     work: &mut StepWork,
 ) -> Result<(), HeatError> {
-    use std::array::{from_mut, from_ref};
-    integrate(heat, from_mut(line), from_ref(begin), from_mut(own), work)
-}
-
-/// The time formula from the fields of the states in which the step of the lines begins to those of the next ones; all
-/// lines have the same operators.
-fn integrate<const L: usize>(
-    heat: &Heat,
-    lines: &mut [HeatLine; L],
-    begin: &[HeatState; L],
-    own: &mut [LineWork; L],
-    work: &mut StepWork,
-) -> Result<(), HeatError> {
     let layout = &heat.layout;
-    let states: [&HeatState; L] = std::array::from_fn(|l| beginning(&lines[l], &begin[l], &own[l]));
-    let plan = own[0].plan;
-    let (dt, (gamma, stages), key) = (plan.dt, plan.stages(), plan.key(states[0]));
-    work.solver.stage.operators.set(layout, key)?;
-    for ((line, own), state) in lines.iter_mut().zip(&mut *own).zip(states) {
-        own.contact.set(&work.solver.stage.operators, layout, &own.loads.conductance)?;
-        own.contact.take_sums(layout, state);
-        let known = &mut line.next.values;
-        if own.plan.melts {
-            known.clone_from(&state.values);
-        }
-        known.resize(state.values.len(), 0.0);
-        own.rate.resize(known.len(), 0.0);
-        line.flows = HeatFlows::default();
+    let state = beginning(line, begin, own);
+    let plan = own.plan;
+    let ((_, stages), key) = (plan.stages(), plan.key(state));
+    work.stage.operators.set(layout, key)?;
+    own.contact.set(&work.stage.operators, layout, &own.loads.conductance)?;
+    own.contact.take_sums(layout, state);
+    for field in [&mut line.next.values, &mut own.rate, &mut own.between] {
+        field.resize(layout.size(), 0.0);
     }
+    own.moved.resize(layout.bodies().map(|body| body.streamline.len()).iter().sum(), 0.0);
+    line.flows = HeatFlows::default();
     for index in 1..=stages {
-        // Both the weight of the stage and the share of the step by which it takes the field on.
-        let weight = if index == stages { gamma } else { 1.0 - gamma };
-        let from: [&[f64]; L] =
-            std::array::from_fn(|l| if index == 1 { &states[l].values[..] } else { &lines[l].next.values[..] });
-        let rates = own.each_mut().map(|own| (&mut own.contact, &mut own.rate[..]));
-        work.solver.stage.multiply(layout, StageCoefficients { storage: 0.0, flow: -1.0 }, from, rates);
-        for own in &mut *own {
-            own.loads.friction_share = own.plan.friction_shares()[index - 1];
-            add_loads(&work.solver.stage.operators, layout, &own.loads, (&mut own.contact, &mut own.rate[..]));
-        }
-        if plan.melts {
-            for (line, own) in lines.iter_mut().zip(&mut *own) {
-                melt(heat, line, own, key, weight, work)?;
-            }
-            continue;
-        }
-        let rates = own.each_mut().map(|own| (&mut own.contact, &mut own.rate[..]));
-        let iterations = work.solver.solve(layout, key.coefficients, rates)?;
-        let from = if index == 1 { states.map(Some) } else { [None; L] };
-        for (((line, own), from), count) in lines.iter_mut().zip(&mut *own).zip(from).zip(iterations) {
-            line.flows.iterations += count;
-            take_on(heat, line, own, from, [weight, gamma].map(|share| share * dt), &work.solver.stage.operators);
-        }
+        own.loads.friction_share = plan.friction_shares()[index - 1];
+        find_rate(heat, line, state, own, work, index, key)?;
+        take_on(heat, line, state, own, work, index);
     }
-    let [velocity, omega] = plan.speeds;
-    if lines.iter().all(|line| line.flows.is_finite()) {
-        Ok(())
-    } else {
-        Err(HeatError::NotFinite { dt, velocity, omega })
-    }
+    let StepPlan { dt, speeds: [velocity, omega], .. } = plan;
+    if line.flows.is_finite() { Ok(()) } else { Err(HeatError::NotFinite { dt, velocity, omega }) }
 }
 
-/// A stage of a line in which steel melts or freezes, from the load that its `rate` holds.
-fn melt(
+/// Finds the rate of a stage, counted from 1, of a step from `state`.
+fn find_rate(
     heat: &Heat,
     line: &mut HeatLine,
+    state: &HeatState,
     own: &mut LineWork,
-    key: StageKey,
-    weight: f64,
     work: &mut StepWork,
+    index: usize,
+    key: StageKey,
 ) -> Result<(), HeatError> {
-    let Some(latent) = &heat.latent else { return Ok(()) };
-    let (layout, StepWork { solver, melting, .. }) = (&heat.layout, work);
-    let LineWork { contact, rate, loads, plan, .. } = own;
-    let HeatLine { next, flows, .. } = line;
-    let known = &mut next.values;
-    flows.iterations += melting.solve(latent, layout, solver, key.coefficients, known, (contact, rate))?;
-    kernels::add(weight * plan.dt, rate, known);
-    let temperature = melting.temperature(known);
-    contact.set_sums(layout, temperature);
-    let ends = StageEnd { temperature, content: known, rate: Some(rate), ahead: 0.0 };
-    contact.add_flows(&solver.stage.operators, layout, loads, &ends, weight, flows);
+    let (layout, StepWork { stage, melting, .. }) = (&heat.layout, work);
+    let LineWork { contact, rate, between, loads, plan, .. } = own;
+    let (field, operators) = (if index == 1 { &state.values } else { &*between }, &mut stage.operators);
+    set_surface_loads(operators, layout, loads, contact);
+    if !plan.melts && !key.curved {
+        contact.load_conduction(layout, field);
+        let mut update = Update::Replace;
+        if has_others(loads) {
+            rate.fill(0.0);
+            add_others(operators, layout, loads, (contact, rate));
+            update = Update::Add;
+        }
+        operators.find_rate(layout, field, (contact, rate), update);
+        return Ok(());
+    }
+    operators.multiply(layout, RATE, field, (contact, rate));
+    add_surface_loads(layout, (contact, rate));
+    add_others(operators, layout, loads, (contact, rate));
+    line.flows.iterations += match &heat.latent {
+        Some(latent) if plan.melts => melting.solve(latent, layout, stage, key.coefficients, field, (contact, rate))?,
+        _ => stage.solve(layout, key.coefficients, (contact, rate))?,
+    };
     Ok(())
 }
 
-/// Takes field, sums and flows of a line on by a stage whose rate has been found, by `ahead` seconds of the step, from
-/// the field of the state `from` or, without one, from the field found so far; the flows are those `implicit` seconds
-/// on.
+/// Takes field, sums and flows of a line on by a stage, counted from 1, whose rate has been found; in the last one also
+/// tells by how much the field has moved.
 fn take_on(
     heat: &Heat,
     line: &mut HeatLine,
+    state: &HeatState,
     own: &mut LineWork,
-    from: Option<&HeatState>,
-    [ahead, implicit]: [f64; 2],
-    operators: &StageOperators,
+    StepWork { stage, melting, .. }: &mut StepWork,
+    index: usize,
 ) {
-    let LineWork { contact, rate, loads, plan, .. } = own;
+    let layout = &heat.layout;
+    let LineWork { contact, rate, between, moved, loads, plan, .. } = own;
     let HeatLine { next, flows, .. } = line;
-    let field = from.map_or(&next.values, |state| &state.values);
-    let ends = StageEnd { temperature: field, content: field, rate: Some(rate), ahead: implicit };
-    contact.add_flows(operators, &heat.layout, loads, &ends, ahead / plan.dt, flows);
-    match from {
-        Some(state) => kernels::sum(&state.values, ahead, rate, &mut next.values),
-        None => kernels::add(ahead, rate, &mut next.values),
+    let (gamma, stages) = plan.stages();
+    // Both the weight of the stage and the share of the step by which it takes the field on.
+    let weight = if index == stages { gamma } else { 1.0 - gamma };
+    let ahead = weight * plan.dt;
+    let (from, target, moved) = match index {
+        1 if stages == 2 => (&state.values, between, &mut [][..]),
+        1 => (&state.values, &mut next.values, &mut moved[..]),
+        _ => (&*between, &mut next.values, &mut moved[..]),
+    };
+    let moved: [_; 2] = moved.split_at_mut(layout.wheel.streamline.len().min(moved.len())).into();
+    for (i, ((body, side), moved)) in layout.bodies().into_iter().zip(&mut contact.sides).zip(moved).enumerate() {
+        let [rate, from, begin] = [rate, from, &state.values].map(|field| layout.part(i, field));
+        let (weights, peaks) = (&body.streamline.weights, &body.nodal.peaks);
+        side.sums[1].resize(body.modes.len(), 0.0);
+        let stage = Advance { rate, ahead, from, begin, weights, peaks };
+        kernels::advance(index == stages, &stage, layout.part_mut(i, target), &mut side.sums[1], moved);
     }
+    if plan.melts {
+        let temperature = melting.temperature(&next.values);
+        contact.set_sums(layout, temperature);
+        let ends = StageEnd { temperature, content: &next.values, rate: Some(rate), ahead: 0.0 };
+        return contact.add_flows(&stage.operators, layout, loads, &ends, weight, flows);
+    }
+    let ends = StageEnd { temperature: from, content: from, rate: Some(rate), ahead: gamma * plan.dt };
+    contact.add_flows(&stage.operators, layout, loads, &ends, weight, flows);
     contact.advance_sums(ahead);
 }

@@ -69,8 +69,8 @@ fn shrink(body: &HeatBody, row: &mut [f64], floor: f64, share: f64) {
 fn raise_body(body: &HeatBody, field: &mut [f64], rows: &mut [RowBounds], floor: f64, values: &mut Vec<f64>) -> f64 {
     let nodal = &body.nodal;
     let (nm, size) = (nodal.modes(), nodal.len());
-    values.resize(nodal.room() + size, 0.0);
-    let (room, change) = values.split_at_mut(nodal.room());
+    values.resize(2 * size, 0.0);
+    let (raised, change) = values.split_at_mut(size);
     let mut poor = Vec::new();
     let weighted = field.chunks_exact_mut(nm).zip(&body.streamline.weights);
     for (i, ((row, weight), known)) in weighted.zip(&mut *rows).enumerate() {
@@ -84,7 +84,7 @@ fn raise_body(body: &HeatBody, field: &mut [f64], rows: &mut [RowBounds], floor:
         if known.found[0] >= floor {
             continue;
         }
-        let raised = nodal.noticed_values(row, room);
+        nodal.values(row, raised);
         raised.iter_mut().for_each(|value| *value -= floor);
         change.copy_from_slice(raised);
         let lack = raise_column(raised, &nodal.weights);

@@ -6,7 +6,7 @@ use crate::heat::parameters::HeatConfig;
 use crate::heat::state::HeatState;
 use crate::heat::tensor::melt::iteration::MeltingIteration;
 use crate::heat::tensor::solve::line_conduction::LineConduction;
-use crate::heat::tensor::solve::solver::StageSolver;
+use crate::heat::tensor::solve::stage::Stage;
 
 /// Memory of a step; holds nothing that outlives it.
 #[derive(Default)]
@@ -24,7 +24,7 @@ pub struct HeatScratch {
 #[derive(Default)]
 pub struct StepWork {
     /// Equations of a stage.
-    pub solver: StageSolver,
+    pub stage: Stage,
     /// Values at the nodes below one surface node.
     pub values: Vec<f64>,
     /// Search for the latent part.
@@ -42,6 +42,9 @@ pub struct LineWork {
     pub loads: SurfaceLoads,
     /// Conduction through the contact.
     pub contact: LineConduction,
-    /// Rate of the field in a stage.
+    /// Rate of the field in a stage, and the field between two stages.
     pub rate: Vec<f64>,
+    pub between: Vec<f64>,
+    /// Distances by which values below every surface node may have moved in the step \[K], the wheel's first.
+    pub moved: Vec<f64>,
 }

@@ -4,7 +4,6 @@ pub mod arrival;
 pub mod bounds;
 pub mod flows;
 pub mod formula;
-pub mod history;
 pub mod limiter;
 pub mod load_vector;
 pub mod loads;

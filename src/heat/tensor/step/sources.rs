@@ -36,6 +36,11 @@ impl SourceLoads {
         Ok(())
     }
 
+    /// True without any heat.
+    pub fn is_empty(&self) -> bool {
+        self.tread.is_empty()
+    }
+
     /// Heat of all sources [W/m].
     pub fn heat(&self) -> f64 {
         self.tread.iter().map(|q| q[0]).sum()

@@ -3,7 +3,7 @@
 use super::bounds::{data, search};
 use super::flows::StageEnd;
 use super::limiter::keep_bounds;
-use super::load_vector::add_loads;
+use super::load_vector::{add_others, add_surface_loads, set_surface_loads};
 use super::loads::SurfaceLoads;
 use crate::heat::error::HeatError;
 use crate::heat::exchange::{Exchange, HeatSource};
@@ -16,7 +16,7 @@ use crate::heat::tensor::mesh::layout::HeatLayout;
 use crate::heat::tensor::solve::coefficients::StageCoefficients;
 use crate::heat::tensor::solve::line_conduction::{LineConduction, contact_nodes};
 use crate::heat::tensor::solve::operators::StageKey;
-use crate::heat::tensor::solve::solver::StageSolver;
+use crate::heat::tensor::solve::stage::Stage;
 use std::f64::consts::PI;
 
 /// Storage that keeps the preconditioner of the stationary state regular, relative to `κ/r_o²` [1].
@@ -29,17 +29,17 @@ const AT_REST: f64 = 1e-3;
 pub fn stationary(heat: &Heat, speeds: [f64; 2], exchange: &Exchange) -> Result<(HeatState, HeatFlows), HeatError> {
     let layout = &heat.layout;
     let mut loads = SurfaceLoads::default();
-    let (mut solver, mut line, mut field, _) = prepared(heat, speeds, exchange, &mut loads, true)?;
+    let (mut stage, mut line, mut field, _) = prepared(heat, speeds, exchange, &mut loads, true)?;
     let exact = StageCoefficients { storage: 0.0, flow: 1.0 };
-    let solved = solver.solve(layout, exact, [(&mut line, &mut field[..])]);
-    let [iterations] = solved.map_err(|error| match error {
+    let solved = stage.solve(layout, exact, (&mut line, &mut field));
+    let iterations = solved.map_err(|error| match error {
         HeatError::NotConverged { residual, iterations, .. } => HeatError::NoStationaryState { residual, iterations },
         other => other,
     })?;
     let mut flows = HeatFlows { iterations, ..HeatFlows::default() };
     line.set_sums(layout, &field);
     let ends = StageEnd { temperature: &field, content: &field, rate: None, ahead: 0.0 };
-    line.add_flows(&solver.stage.operators, layout, &loads, &ends, 1.0, &mut flows);
+    line.add_flows(&stage.operators, layout, &loads, &ends, 1.0, &mut flows);
     if !flows.is_finite() {
         return Err(not_finite(speeds));
     }
@@ -91,8 +91,8 @@ fn passing(heat: &Heat, speeds: [f64; 2], exchange: &Exchange, tread: f64) -> Re
         ..Exchange::default()
     };
     let mut loads = SurfaceLoads::default();
-    let (mut solver, mut line, mut field, coefficients) = prepared(heat, speeds, &even, &mut loads, false)?;
-    solver.solve(layout, coefficients, [(&mut line, &mut field[..])])?;
+    let (mut stage, mut line, mut field, coefficients) = prepared(heat, speeds, &even, &mut loads, false)?;
+    stage.solve(layout, coefficients, (&mut line, &mut field))?;
     let (body, mut mean) = (&layout.wheel, Vec::new());
     let [wheel, _] = layout.split_mut(&mut field);
     body.integrate(wheel, &mut mean);
@@ -117,19 +117,22 @@ fn prepared(
     exchange: &Exchange,
     loads: &mut SurfaceLoads,
     curved: bool,
-) -> Result<(StageSolver, LineConduction, Vec<f64>, StageCoefficients), HeatError> {
+) -> Result<(Stage, LineConduction, Vec<f64>, StageCoefficients), HeatError> {
     check_speeds(speeds)?;
-    let (layout, mut solver, mut line) = (&heat.layout, StageSolver::default(), LineConduction::default());
+    let (layout, mut stage, mut line) = (&heat.layout, Stage::default(), LineConduction::default());
     loads.set(layout, exchange, heat.content(exchange.arriving))?;
     let storage = REGULARISATION * layout.config.diffusivity() / layout.config.wheel.radius.powi(2);
     let coefficients = StageCoefficients { storage, flow: 1.0 };
     let contact = contact_nodes(&loads.conductance);
     let key = StageKey { speeds, inverted: speeds, coefficients, rate: 0.0, curved, contact };
-    solver.stage.operators.set(layout, key)?;
-    line.set(&solver.stage.operators, layout, &loads.conductance)?;
+    let operators = &mut stage.operators;
+    operators.set(layout, key)?;
+    line.set(operators, layout, &loads.conductance)?;
     let mut field = vec![0.0; layout.size()];
-    add_loads(&solver.stage.operators, layout, loads, (&mut line, &mut field[..]));
-    Ok((solver, line, field, coefficients))
+    set_surface_loads(operators, layout, loads, &mut line);
+    add_surface_loads(layout, (&mut line, &mut field));
+    add_others(operators, layout, loads, (&mut line, &mut field));
+    Ok((stage, line, field, coefficients))
 }
 
 fn not_finite([velocity, omega]: [f64; 2]) -> HeatError {
