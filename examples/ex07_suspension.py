@@ -194,7 +194,7 @@ CONTROLLED = {"held": 2, "ramped": 3}  # power of the step with which the energy
 ENERGIES = (1e-3, 1e-4, 1e-5)  # J, tolerated in a step
 SMALLEST, LARGEST = 1e-4, 1e-2  # s, steps
 REFERENCE = 1e-4  # s, step of the ramped run with which forces are compared
-BRIEF = {"STEPS": (5e-3,), "ENERGIES": (1e-2,), "REFERENCE": 2e-3}
+BRIEF = {"STEPS": (5e-3,), "ENERGIES": (1e-1,), "REFERENCE": 5e-3}
 LEAST = 1e-5  # %, kN: what is smaller is drawn here
 STYLES = {"held": "s-", "ramped": "o-", "velocity": "^-", "iterative": "x:"}
 

@@ -30,10 +30,11 @@ DRIVES = ("held", "varying", "slide")
 class Brakes:
     """Brakes of one of `DRIVES`, whose moments vary by the share `change` in the time `period` (s) if they do."""
 
-    def __init__(self, drive, change, period):
+    def __init__(self, drive, change, period, settling=None):
         self.drive, self.change, self.period = drive, change if drive == "varying" else 0.0, period
         self.start = {"initial.velocity": SPEED} | ({"control.translation": "velocity"} if drive == "slide" else {})
-        self.settling = 0.3 if drive == "slide" else 0.1  # until what is measured begins, s
+        # Until what is measured begins, s.
+        self.settling = settling if settling is not None else 0.3 if drive == "slide" else 0.1
 
     def inputs(self, wheel, time):
         """Inputs of a wheel: half of the adhesion limit, and a triangle that each wheel has at another time; or a brake that locks it."""
@@ -103,6 +104,7 @@ def arguments():
     parser.add_argument("--drives", nargs="+", choices=DRIVES, default=DRIVES, help="what the wheels do")
     parser.add_argument("--change", type=float, default=0.3, help="share by which moments vary")
     parser.add_argument("--period", type=float, default=0.04, help="time in which they do (s)")
+    parser.add_argument("--settling", type=float, metavar="S", help="simulated time before what is measured; 0.3 of slides, 0.1 of others")
     options = parser.parse_args()
     if not options.seconds >= BATCH * STEP:
         parser.error(f"--seconds {options.seconds:g} is below {BATCH * STEP:g}, the time of the steps that are timed together")
@@ -122,7 +124,7 @@ def rows(options):
         for heat in (True, False):
             for drive in options.drives:
                 name = f"{preset}, {'with' if heat else 'without'} heat, {drive}"
-                yield name, {"preset": preset, "thermal.enabled": heat}, Brakes(drive, options.change, options.period)
+                yield name, {"preset": preset, "thermal.enabled": heat}, Brakes(drive, options.change, options.period, options.settling)
 
 
 def main():

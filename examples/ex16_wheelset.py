@@ -27,7 +27,7 @@ STEP, DURATION = 1e-3, 2.0  # s
 SPEEDS = (50.0, 65.0, 75.0)  # of the cones [m/s]
 FAST = (50.0, 60.0, 70.0)  # of the profiles [m/s]
 PROFILES = Path(__file__).parent / "profiles"
-SHIFTS, COARSE, LINES = "-6.2:6.2:0.1", "-6.2:6.2:0.4", 9  # of the table, and with --brief [mm], and rows of each
+SHIFTS, COARSE, LINES = "-6.2:6.2:0.1", "-6.2:6.2:1.24", 9  # of the table, and with --brief [mm], and rows of each
 FAR = 4e-3  # shift at the start on profiles [m]
 LOAD = 100e3  # vertical load of a wheel [N]
 FIXED = {
@@ -225,7 +225,7 @@ def run_profiles(fmu, speeds, duration, table):
 def run(options):
     """All speeds, the tables and the picture."""
     options.out.mkdir(parents=True, exist_ok=True)
-    duration, shifts = (0.1, COARSE) if options.brief else (options.duration, SHIFTS)
+    duration, shifts = (0.03, COARSE) if options.brief else (options.duration, SHIFTS)
     with Fmu(options.fmu) as fmu:
         cones = run_cones(fmu, options.speeds, 0.4 if options.brief else options.duration)
         profiles = run_profiles(fmu, FAST[-1:] if options.brief else FAST, duration, patches(options.out, shifts))
@@ -240,7 +240,7 @@ def arguments():
     parser.add_argument("--out", type=Path, default=Path("results"), help="directory for the plot")
     parser.add_argument("--speeds", type=float, nargs="+", default=SPEEDS, help="of the cones [m/s]; default: %(default)s")
     parser.add_argument("--duration", type=float, default=DURATION, help="s; default: %(default)s")
-    parser.add_argument("--brief", action="store_true", help="0.4 s of each cone, 0.1 s of the fastest profile")
+    parser.add_argument("--brief", action="store_true", help="0.4 s of each cone, 0.03 s of the fastest profile")
     return parser.parse_args()
 
 

@@ -13,10 +13,10 @@ COARSE = {"mesh.elements_per_half_width": 8}
 
 @pytest.fixture(scope="module")
 def stops(fmu):
-    """Stops from 5 m/s with communication steps of 2 and 1 ms."""
+    """Stops from 3 m/s with communication steps of 2 and 1 ms."""
     tables = []
     for step in (2e-3, 1e-3):
-        with Wheel(fmu, COARSE | {"initial.velocity": 5.0}) as wheel:
+        with Wheel(fmu, COARSE | {"initial.velocity": 3.0}) as wheel:
             tables.append(brake_to_standstill(wheel, MOMENT, step))
     return tables
 
@@ -40,7 +40,7 @@ def test_stopping_distance_does_not_depend_on_the_communication_step(stops):
 
 
 def test_brake_beyond_adhesion_locks_the_wheel_and_slides_to_rest(start):
-    wheel = start(COARSE | {"initial.velocity": 5.0})
+    wheel = start(COARSE | {"initial.velocity": 3.0})
     table = brake_to_standstill(wheel, 2.0 * MOMENT, 1e-3)
     sliding = (column(table, "wheel.omega") == 0.0) & (column(table, "wheel.velocity") > 0.5)
     assert sliding.sum() > 100

@@ -4,6 +4,7 @@ No wheel is computed. Both coaches see the same wheelsets, whose motion is presc
 stand, so that every branch of brake, slide protection and prediction is passed.
 """
 
+import functools
 import os
 from pathlib import Path
 from types import SimpleNamespace
@@ -19,6 +20,7 @@ from wheelrail.parallel import HeldCoach
 from wheelrail.vehicle import AXLES
 
 STEP, END = 5e-3, 24.0  # s
+TIMES = STEP * np.arange(round(END / STEP))
 TOLERANCE = 1e-11  # over the largest value of an output
 # Outputs of the coach by axle, and the names of the wheel's inputs they drive.
 DRIVEN = {f"axle{k}.{name}": (k - 1, target) for k in range(1, AXLES + 1) for name, target in ssp.TO_WHEEL.items()}
@@ -35,9 +37,16 @@ def opened(request, tmp_path_factory):
         yield opened
 
 
+def resisted(resistance):
+    """The scenario of `make ssp`, with a resistance to motion or without."""
+    stop = scenario.load(ROOT / "examples" / "train" / "low_adhesion.json")
+    stop.vehicle.resistance.constant, stop.vehicle.resistance.quadratic = 0.002 * resistance, 1e-6 * resistance
+    return stop
+
+
 @pytest.fixture
 def stop():
-    """The scenario of `make ssp`."""
+    """The scenario of `make ssp` as it is."""
     return scenario.load(ROOT / "examples" / "train" / "low_adhesion.json")
 
 
@@ -68,10 +77,12 @@ def wheelsets(stop, time):
     return seen
 
 
-def in_python(stop, times):
-    """Outputs of the coach in Python, one row per step."""
+@functools.cache
+def in_python(resistance):
+    """Outputs of the coach in Python with a resistance, one row per step: the same for both versions of FMI."""
+    stop = resisted(resistance)
     coach, rows, seen = HeldCoach(stop), [], None
-    for time in times:
+    for time in TIMES:
         driven = coach.step(STEP, seen, demand(time))
         brakes, vehicle = coach.brakes, coach.vehicle
         row = {name: driven[axle][target] for name, (axle, target) in DRIVEN.items()}
@@ -101,13 +112,11 @@ def in_rust(stop, times, opened, names):
 
 
 @pytest.mark.parametrize("resistance", [0.0, 1.0])
-def test_both_coaches_have_the_same_outputs_to_rounding(stop, opened, resistance):
-    stop.vehicle.resistance.constant, stop.vehicle.resistance.quadratic = 0.002 * resistance, 1e-6 * resistance
-    times = STEP * np.arange(round(END / STEP))
-    expected = in_python(stop, times)
+def test_both_coaches_have_the_same_outputs_to_rounding(opened, resistance):
+    stop, expected = resisted(resistance), in_python(resistance)
     names = list(expected[0])
     assert set(names) == {v.name for v in opened.variables.values() if v.causality == "output"}
-    found = in_rust(stop, times, opened, names)
+    found = in_rust(stop, TIMES, opened, names)
     # Every branch has been passed: each valve, a release, an axle that stands and one that is held.
     valves = {row[f"axle{k}.valve"] for row in expected for k in range(1, AXLES + 1)}
     assert valves == {valve.value for valve in Valve}

@@ -64,7 +64,7 @@ def test_iterative_master_of_the_wheel_is_stable_far_beyond_carters_limit(fmu):
     assert slip_growth(fmu, "iterative", 2.0, 20.0 * limit) < 0.99
 
 
-@pytest.mark.parametrize("speed", [10.0, 2.0, 1.0])
+@pytest.mark.parametrize("speed", [10.0, 2.0])
 @pytest.mark.parametrize("master", ["Jacobi", "Gauss-Seidel"])
 def test_explicit_masters_are_stable_with_the_step_that_the_fmu_suggests(fmu, master, speed):
     split = Split(fmu, "wheel", speed)

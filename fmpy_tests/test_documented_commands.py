@@ -30,10 +30,12 @@ def clean(**variables):
 
 
 def small(folder):
-    """A scenario of a slow train, with the files it names."""
+    """A scenario of a slow train whose brake acts at once, with the files it names."""
     shutil.copytree(ROOT / "examples/train", folder / "train")
+    brake = folder / "train" / "disc_brake.json"
+    brake.write_text(json.dumps(json.loads(brake.read_text()) | {"fill_time": 0.1, "delay": 0.0}))
     path = folder / "train" / "low_adhesion.json"
-    scenario = json.loads(path.read_text()) | {"speed": 0.5, "step": 0.01, "hold": 0.1, "sweep": {"speed": [0.5, 0.6]}}
+    scenario = json.loads(path.read_text()) | {"speed": 0.5, "step": 0.01, "hold": 0.05, "sweep": {"speed": [0.5, 0.6]}}
     scenario["wheel"] |= {"mesh.elements_per_half_width": 6}
     path.write_text(json.dumps(scenario))
     return path
@@ -58,10 +60,11 @@ def empty(tmp_path_factory, packed):
     place = tmp_path_factory.mktemp("empty")
     build = [sys.executable, ROOT / "packaging/wheel.py", packed, "--out", place]
     subprocess.run(build, cwd=place, env=clean(), check=True, capture_output=True)
-    subprocess.run([sys.executable, "-m", "venv", "venv"], cwd=place, env=clean(), check=True)
+    # The pip of the tests installs into it: unpacking another one would take longer than all the rest.
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", "venv"], cwd=place, env=clean(), check=True)
     (wheel,) = place.glob("*.whl")
     python = place / "venv/bin/python"
-    pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--no-index", wheel]
+    pip = [sys.executable, "-m", "pip", "--python", python, "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--no-index", wheel]
     subprocess.run(pip, cwd=place, env=clean(), check=True)
     # Dependencies come from the environment of the tests, whose own link to the checkout such a line does not follow.
     packages = subprocess.run([python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"], capture_output=True, text=True)
@@ -69,7 +72,7 @@ def empty(tmp_path_factory, packed):
     environment = clean(PATH=f"{place / 'venv/bin'}:{os.environ['PATH']}", MPLBACKEND="Agg")
     make = (
         "import wheelrail, numpy, csv; assert wheelrail.__file__.startswith('venv') or '/venv/' in wheelrail.__file__, wheelrail.__file__\n"
-        "run = wheelrail.simulate({'initial.velocity': 20.0}, {'brake.torque': 8000.0}, stop=0.4, progress=False, depth=True, patch=True)\n"
+        "run = wheelrail.simulate({'initial.velocity': 20.0}, {'brake.torque': 8000.0}, stop=0.3, every=10, progress=False, depth=True, patch=True)\n"
         "wheelrail.save(run, 'run.nc'); wheelrail.table(run).astype(float).to_csv('run.csv')\n"
         "rows = [(0.01 * k, 1e-5 * numpy.sin(3.0 * k)) for k in range(500)]\n"
         "csv.writer(open('rail.csv', 'w')).writerows([('position', 'height'), *rows])\n"

@@ -59,7 +59,7 @@ def test_residual_energy_falls_with_the_square_of_the_step_at_the_least(stop, ma
 
 
 def test_steps_that_follow_the_energy_are_fewer_at_equal_error(stop):
-    _, reference, rest = stop("ramped", 1e-4)
+    _, reference, rest = stop("ramped", 2e-4)
     end = rest + 0.8
     found = []
     for h, control in ((1e-3, None), (1e-3, suspension.control("ramped", 1e-4))):

@@ -3,7 +3,6 @@
 import re
 import shutil
 import struct
-import subprocess
 import sys
 import zipfile
 from pathlib import Path
@@ -342,10 +341,10 @@ def test_a_master_in_c_gets_the_same_digits_from_both_versions(fmu, fmu3, tmp_pa
     assert printed[0] == printed[1] and len(printed[0][1].splitlines()) == 100
 
 
-def test_the_library_comes_and_goes_a_thousand_times(fmu3):
+def test_the_library_comes_and_goes_hundreds_of_times(fmu3):
     """Loaded, used and unloaded; every hundredth time for a short run."""
     memory = []
-    for k in range(1001):
+    for k in range(301):
         slave = loaded(fmu3, f"wheel{k}", Calls("wheel"))
         slave.start([])
         if k % 100 == 0:
@@ -359,16 +358,7 @@ def test_the_library_comes_and_goes_a_thousand_times(fmu3):
             memory.append(int(next(line for line in lines if line.startswith("VmRSS:")).split()[1]))
     print(f"resident memory every hundred rounds: {memory} kB")
     assert str(fmu3.directory) not in Path("/proc/self/maps").read_text()
-    assert memory[-1] - memory[1] < 900 * 10
-
-
-def test_an_example_writes_the_same_table_from_both_versions(packed, packed3, tmp_path):
-    tables = []
-    for name, path in (("two", packed), ("three", packed3)):
-        command = [sys.executable, ROOT / "examples/ex01_braking_stop.py", "--fmu", path, "--speed-kmh=20", "--out", tmp_path / name]
-        subprocess.run(command, check=True, capture_output=True, cwd=ROOT)
-        tables.append((tmp_path / name / "braking_stop.csv").read_bytes())
-    assert tables[0] == tables[1] and tables[0].count(b"\n") > 100
+    assert memory[-1] - memory[1] < 200 * 10
 
 
 def test_fmpy_simulates_it(fmu3, packed3):

@@ -75,7 +75,7 @@ def test_controllers_of_one_stop_share_their_module(tmp_path):
     assert demands == [1.0, 1.0, 1.0, 0.5, 0.5]
 
 
-@pytest.mark.parametrize("kind", ["module", "class", "installed"])
+@pytest.mark.parametrize("kind", ["module", "installed"])
 def test_a_sweep_on_one_worker_is_that_on_two_to_the_bit(kind, tmp_path, monkeypatch):
     import distributed
 

@@ -10,7 +10,7 @@ use wheelrail::simulation::{Inputs, Rotation, Simulation, Translation};
 /// Time in which the rotation is stopped [s].
 const LOCK: f64 = 0.02;
 /// End of the slide [s].
-const END: f64 = 0.3;
+const END: f64 = 0.2;
 /// Time from which on the slide counts [s].
 const SETTLED: f64 = 0.05;
 /// `(2 + π)/√3`.

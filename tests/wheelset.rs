@@ -196,7 +196,7 @@ fn the_patch_of_a_shift_is_that_of_its_rows_alone() {
     figure("wheelset.table", &[most]);
 }
 
-/// What a contact gains in elastic energy from patch to patch, load and lateral force put in, there and back; friction of .02 hides
+/// Elastic energy that a contact gains from patch to patch is what load and lateral force put in, there and back; friction of .02 hides
 /// nothing.
 #[test]
 fn a_wheel_that_moves_to_another_patch_gains_the_energy_that_is_put_in() {
