@@ -1,7 +1,7 @@
 """The process is not ours: loading, running and closing change nothing of it, not even for a moment, and any order of closing,
 copying, interrupting and threads ends in an answer or in a refusal. Each case is a process of its own: what goes wrong here kills
-it. Every case is tried twenty times, with FMI 3.0 five times; those that load slowly or write files, in which what goes wrong does so at every
-try, five times and twice."""
+it. Every case is tried twenty times, with FMI 3.0 five times; those that load slowly or write files five times and
+twice."""
 
 import subprocess
 import sys
@@ -429,10 +429,10 @@ finally:
 }
 
 
-# Cases that are slow, and why they need no luck: loading takes a tenth of a second, folders change at every call.
+# Cases that load for a tenth of a second or more at every try.
 SLOW = (
     "nothing changes while it loads, runs and closes", "records of threads that open FMUs are where they were meant",
-    "a file lies where it was when it was named", "an FMU is closed while a wheel of it steps",
+    "a file lies where it was when it was named",
 )  # fmt: skip
 
 
