@@ -177,7 +177,8 @@ impl<'a> Master<'a> {
             self.outputs = None;
             return;
         };
-        let is_temperature = |v: &Variable| v.name.contains("temperature");
+        let is_relative = |v: &Variable| matches!(v.kind, Kind::Real { measure, .. } if measure.is_relative());
+        let is_temperature = |v: &Variable| v.name.contains("temperature") && !is_relative(v);
         let kelvins = rows.iter().zip(&values).filter(|(row, _)| is_temperature(row)).map(|(_, value)| *value);
         let hottest = kelvins.fold(0.0, f64::max);
         let before = std::mem::replace(&mut self.hottest, hottest);

@@ -137,8 +137,9 @@ fn derivatives_in_divided_steps_are_those_of_the_repeated_step_while_the_rail_wa
 #[test]
 fn derivatives_are_those_of_the_repeated_step_where_a_node_is_about_to_close() {
     let cases = [
-        // The temperature at which friction acts has no kink where nodes of the contact pass those of the temperatures.
-        (undivided("railway_ellipse"), BOUND, 0),
+        // The temperature at which friction acts has no kink where nodes of the contact pass those of the temperatures. Once a
+        // node is about to close so nearly that the slope by the load changes by 2 % within 14 N, the span of the differences.
+        (undivided("railway_ellipse"), 2e-4, 0),
         // The step of the derivatives by friction lies across a kink once: slopes of its sides differ by 4e-3 of the scale.
         (undivided("railway_s1002_3mm"), 6e-4, 6),
         (shipped("railway_ellipse"), 2e-4, 20),

@@ -62,8 +62,8 @@ fn apart(runs: [&[Step]; 2], of: impl Fn(&Outputs) -> f64) -> [f64; 3] {
     [all.iter().copied().fold(0.0, f64::max), all.iter().sum::<f64>() / all.len() as f64, all[all.len() - 1]]
 }
 
-/// What `solver.force_error` and `solver.temperature_error` may miss of an error: `solver.tolerance` of the load \[N], and half
-/// a kelvin.
+/// Errors that `solver.force_error` and `solver.temperature_error` may miss: `solver.tolerance` of the load \[N], and half a
+/// kelvin.
 const UNTOLD: [f64; 2] = [2e-3 * 1e5, 0.5];
 
 /// Largest errors of forces and mean temperatures in the steps that the bound spoils, found from the free twins that begin in the

@@ -394,5 +394,5 @@ fn terminals_name_variables_that_exist_and_only_differences_of_temperature_are_r
         .filter(|v| matches!(v.kind, Kind::Real { measure, .. } if measure.is_relative()))
         .map(|v| v.name)
         .collect();
-    assert_eq!(relative, ["thermal.wheel_excess", "damage.threshold"]);
+    assert_eq!(relative, ["thermal.wheel_excess", "solver.temperature_error", "damage.threshold"]);
 }
