@@ -46,6 +46,24 @@ fn without_lateral_motion_and_spin_the_patch_is_the_longitudinal_one() {
     }
 }
 
+/// A wheel that has not moved across computes nothing there. A step with a lateral velocity that is taken back leaves no trace in
+/// the buffers of the next one.
+#[test]
+fn a_lateral_step_that_is_taken_back_leaves_no_trace() {
+    let model = sideways(5, |_| {});
+    let still = moving(&model, 1e-3, 0.0, 0.0);
+    let mut simulation = Simulation::new(model.clone(), &still).unwrap();
+    let before = simulation.checkpoint().clone();
+    let mut step = |lateral: f64| {
+        simulation.recall(before.clone()).unwrap();
+        simulation.advance(&moving(&model, 1e-3, lateral, 0.2 * lateral), 1e-3).unwrap();
+        simulation.outputs().clone()
+    };
+    let [first, across, again] = [0.0, 1e-3, 0.0].map(&mut step);
+    assert!(across.contact_force_z.abs() > 100.0 && across.contact_moment_y != 0.0);
+    assert!(first == again && first.contact_moment_y == 0.0);
+}
+
 #[test]
 fn mirror_images_of_the_motion_have_mirror_images_of_the_forces() {
     let model = sideways(5, |_| {});

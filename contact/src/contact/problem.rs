@@ -146,10 +146,10 @@ impl RigidMotion {
         }
     }
 
-    /// True if its value is zero and stays so without a contact force.
+    /// True if its value is zero and stays so without a contact force: it is held there, or nothing drives its mass.
     pub fn rests(&self) -> bool {
-        let driven = self.drive.loads().is_some_and(|[load, _]| [load, self.offset, self.momentum] != [0.0; 3]);
-        self.start() == 0.0 && !driven
+        let free = |[load, _]: [f64; 2]| self.gain == 0.0 || [load, self.offset, self.momentum] != [0.0; 3];
+        self.start() == 0.0 && !self.drive.loads().is_some_and(free)
     }
 
     /// Acceleration that belongs to a value.

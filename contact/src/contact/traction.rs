@@ -196,6 +196,13 @@ impl Traction {
         self.work_of(|x| self.yielding.overlap.at(x))
     }
 
+    /// Takes away all that lies across, which an earlier use of the memory may have left.
+    pub fn clear_across(&mut self) {
+        (self.spin_moment, self.friction.lateral_slip) = (0.0, 0.0);
+        self.lateral_shear.clear();
+        self.lateral_slip.clear();
+    }
+
     /// Takes away all slip and its dissipation: the state of a wheel at rest.
     pub fn rest(&mut self) {
         self.friction.rest();

@@ -27,6 +27,8 @@ fn finish_line(line: &mut ContactLine) {
         line.traction.friction.slip_speed = libm::hypot(along, across);
         line.traction.friction.lateral_slip = across;
         line.traction.spin_moment = line.spin_moment();
+    } else {
+        line.traction.clear_across();
     }
     let to_right = line.upstream_right();
     let ContactLine { grid, given, iterate, state, traction, .. } = line;
