@@ -336,7 +336,8 @@ fn derivatives_with_everything_varying_are_those_of_the_repeated_step() {
 }
 
 /// Everything varying on patches: where an edge passes a node of the temperatures, the heat into the rail has a kink, to
-/// which no perturbation of a derivative reaches. Measured: 7e-7; across the kink 8e-4.
+/// which no perturbation of a derivative reaches. Measured: 7e-7, and 4e-5 where one side decides otherwise, so that the
+/// derivative is that of the other side; across the kink 8e-4.
 #[test]
 fn derivatives_of_the_heat_into_the_rail_do_not_reach_across_elements() {
     let mut config = preset("railway_s1002_0mm", 10);
@@ -362,7 +363,7 @@ fn derivatives_of_the_heat_into_the_rail_do_not_reach_across_elements() {
         let expected = 0.5 * (high - low);
         let error = (found - expected).abs() / expected.abs().max(1e-2);
         largest = largest.max(error);
-        assert!(error < 1e-5, "{k}: {found:e}, differences {expected:e}, {error:.1e}");
+        assert!(error < 1e-4, "{k}: {found:e}, differences {expected:e}, {error:.1e}");
     }
     println!("largest error {largest:.1e}");
 }
