@@ -51,7 +51,9 @@ fn railway(layer: f64, change: impl Fn(&mut Config)) -> Arc<Model> {
 }
 
 fn start(model: &Arc<Model>, creepage: f64) -> Outputs {
-    Simulation::new(model.clone(), &prescribed(model, 20.0, creepage)).unwrap().outputs().clone()
+    let mut inputs = prescribed(model, 20.0, creepage);
+    inputs.drive.lateral_velocity = if model.config().contact.lateral { HARDLY } else { 0.0 };
+    Simulation::new(model.clone(), &inputs).unwrap().outputs().clone()
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{figure, model, prescribed, preset, round_off};
+use common::{HARDLY, figure, model, prescribed, preset, round_off};
 use wheelrail::config::Config;
 use wheelrail::simulation::Simulation;
 
@@ -33,6 +33,7 @@ impl Course {
         change(&mut config);
         let model = model(config);
         let mut inputs = prescribed(&model, self.motion[0], self.motion[1]);
+        inputs.drive.lateral_velocity = if model.config().contact.lateral { HARDLY } else { 0.0 };
         let [time, h] = self.time;
         let steps = (time / h).round();
         let load = |k: usize| self.loads[0] + (self.loads[1] - self.loads[0]) * k as f64 / steps;

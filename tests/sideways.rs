@@ -158,7 +158,7 @@ fn without_lateral_creepage_and_spin_forces_are_those_of_the_longitudinal_patch(
     for aspect in [0.5, 1.0, 2.0] {
         let (along, both) = (HalfSpaces::new(aspect, 7), HalfSpaces::sideways(aspect, 7));
         let difference = |xi: f64| {
-            let [x, ..] = forces(&both, &steady(&both, [xi, 0.0, 0.0]));
+            let [x, ..] = forces(&both, &steady(&both, [xi, common::HARDLY, 0.0]));
             x - along.utilisation(LOAD, &along.steady(xi))
         };
         let errors: Vec<_> = [-1e-4, -5e-4, -1e-3, -2e-3, -4e-3].map(difference).to_vec();

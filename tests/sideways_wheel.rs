@@ -36,7 +36,10 @@ fn start(model: &Arc<Model>, inputs: &Inputs) -> Outputs {
 fn without_lateral_motion_and_spin_the_patch_is_the_longitudinal_one() {
     let models = [false, true].map(|lateral| sideways(7, |config| config.contact.lateral = lateral));
     for creepage in [5e-4, 2e-3, 1e-2] {
-        let [along, both] = models.each_ref().map(|model| start(model, &moving(model, creepage, 0.0, 0.0)));
+        let of = |model: &Arc<Model>| {
+            start(model, &moving(model, creepage, if model.config().contact.lateral { HARDLY } else { 0.0 }, 0.0))
+        };
+        let [along, both] = models.each_ref().map(of);
         let limit = 0.3 * 1e5;
         let missed = (both.contact_force_x - along.contact_force_x) / limit;
         let aside = [both.contact_force_z / limit, both.contact_moment_y / (limit * along.contact_half_width)];

@@ -18,6 +18,9 @@ pub fn shipped(name: &str) -> Config {
     presets::parse(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
+/// Lateral velocity that lets a contact compute both directions, and is too small to be felt [m/s].
+pub const HARDLY: f64 = 1e-9;
+
 /// A shipped preset with another density of all meshes, the contact nodes included.
 pub fn preset(name: &str, elements_per_half_width: usize) -> Config {
     let mut config = shipped(name);
