@@ -117,6 +117,7 @@ def test_an_extension_that_was_not_known_is_written_when_the_dry_stop_is_there(m
         delattr(many.sweep, key)
     many.sweep.speed, path = [1.0], tmp_path / "sweep.csv"
     [row], _ = sweep.sweep(client, many, None, path)
+    # Found at all, and no more than leaves can do to a stop from walking pace.
     assert 0.0 < row["extension over dry"] < 20.0
     header, line = path.read_text().splitlines()
     path.write_text("\n".join([header, ",".join([*line.split(",")[:-2], "nan", "nan"])]) + "\n")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Flexibility of a railway wheel and of a rail as solids, and the plane bodies that have the same one.
 
-    tools/structural_width.py             every table of docs/theory/structural-width.md, some minutes
+    tools/structural_width.py             every table behind docs/theory/structural-width.md, some minutes
     tools/structural_width.py wheels      one of: convergence, annuli, wheels, widths, rails
 
 Finite elements in the cross section, Fourier series along the tread: order n around a wheel, wave number along a rail.

@@ -93,7 +93,7 @@ const FEWEST_ELEMENTS: f64 = 2.0;
 const FEWEST_PER_WAVE: f64 = 4.0;
 /// Error of the force over a sharp hole, over load, element and hole, one element added to it, in half-widths \[1]: the
 /// edges are found to within an element, and a hole that does not change the height of the wheel takes about a tenth of
-/// its squared length off the force. Measured: `docs/theory/profiles.md`, section 6.
+/// its squared length off the force. See `docs/theory/profiles.md`, section 6.
 const HOLE: f64 = 0.2;
 /// Load that the candidate zone carries in any case, over the nominal load \[1].
 pub(super) const ZONE_LOAD: f64 = 2.0;
