@@ -1,9 +1,8 @@
 # make demo      braking stop from 100 km/h through fmpy: table, CSV, picture and page (report.html) in results/
 # make help      these lines
 # make test      every test, Rust and fmpy
-# make quick     what tells most after an edit: architecture, documents, unit tests and fast programs
-# make loop TEST=brake  one test program after an edit; ARGS=name runs the tests of that name in it
-# make test-times  every test, one program after the other, with its CPU time: target/test-times.md
+# make loop TEST=brake  the tests of one file after an edit, or of a folder of tests/ (TEST=tree: architecture and documents), or
+#                unit tests (TEST=lib); ARGS=name runs those of that name
 # make fmu       target/wheelrail.fmu, and target/wheelrail.cdx.json: the crates that are linked into its library
 #                make fmu PROFILES=no leaves the points of profiles out of its description (target/wheelrail-slim.fmu)
 # make fmu3      target/wheelrail-fmi3.fmu: the same wheel with the interface of FMI 3.0
@@ -103,7 +102,7 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml contact/Cargo.tom
 	docs/flat.png docs/hunting.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test forget-figures test-tools test-rust test-fmpy test-programs environments built packed quick loop test-times fmu fmu3 compilers fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack hunting published locked-wheels thesis figures bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check mutations house docs bench-page site describe clean
+.PHONY: demo help test forget-figures test-tools test-rust test-fmpy test-programs environments built packed loop fmu fmu3 compilers fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack hunting published locked-wheels thesis figures bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check mutations house docs bench-page site describe clean
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -147,27 +146,11 @@ test-fmpy: $(FMU) $(FMU3) $(COACH) $(BENCH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BR
 	$(PY) -m pytest --numprocesses logical fmpy_tests
 	$(PY) -m unittest discover --quiet --pattern test_structural_width.py tools
 
-# Programs that take less than a second each, from every room of the house.
-QUICK := architecture documents model_description fmi_lifecycle contact_two_patches \
-	opposed_rolling heat_closed_forms reversible_heating energy_in_the_air
-# Unit tests of more than two seconds of CPU, which only `make test` runs.
-LONG_UNITS := modes_of_long_low_rails_are_found_although_they_crowd energy_that_dashpots_take_is_what_the_body_loses \
-	damped_reduced_and_full_bodies_answer_alike reduced_and_full_bodies_move_alike \
-	production_mesh_is_small_enough_and_has_the_torsion_frequency_of_the_annulus \
-	trapezoidal_rule_conserves_the_energy_of_free_vibration a_damped_mode_decays_as_its_closed_form
-
-# Compiled by the profile `edit` of .cargo/config.toml; unit tests run at once, so that a failure shows early.
-quick:
-	@echo "quick: unit tests (lib) and the programs $(QUICK)"
-	$(CARGO) test --profile edit --locked $(UNITS) --lib -- $(addprefix --skip ,$(LONG_UNITS))
-	$(CARGO) test --profile edit --locked $(addprefix --test ,$(QUICK))
-
+# Compiled by the profile `edit` of .cargo/config.toml. A file of tests is found in the folder of its program.
+PROGRAM = $(or $(notdir $(patsubst %/,%,$(dir $(wildcard tests/*/$(TEST).rs)))),$(TEST))
 loop:
-	@test -n "$(TEST)" || { echo 'make loop TEST=name: the name of a program in tests/, or lib for the unit tests'; exit 1; }
-	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),$(UNITS) --lib,--test $(TEST)) -- $(ARGS)
-
-test-times: $(FMU) $(FMU3) $(COACH) $(BENCH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
-	$(PYTHON) tools/test_times.py --python $(PY) --out $(TARGET)/test-times.md
+	@test -n "$(TEST)" || { echo 'make loop TEST=name: a file or a folder in tests/, or lib for the unit tests'; exit 1; }
+	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),$(UNITS) --lib,--test $(PROGRAM)) -- --show-output $(or $(ARGS),$(if $(wildcard tests/*/$(TEST).rs),$(TEST)::))
 
 fmu3: $(FMU3)
 
@@ -271,27 +254,27 @@ random-parameters:
 	$(CARGO) run --release --locked --example ex04_random_parameters -- $(ARGS)
 
 random-temperatures:
-	WHEELRAIL_TEMPERATURE_SETS=500 $(CARGO) test --release --locked --test temperature_bounds -- --nocapture
+	WHEELRAIL_TEMPERATURE_SETS=500 $(CARGO) test --release --locked --test heat temperature_bounds:: -- --nocapture
 
 # Masters through the C functions: instantiate, steps, states saved, restored, serialized, misused and freed. Any error
 # that valgrind finds counts, and every block that is definitely lost.
 LEAK_RUNNER := valgrind --quiet --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite --error-exitcode=1
-LEAK_TESTS := a_run_from_a_saved_state_is_the_first_bit_for_bit a_serialized_state_continues_in_another_instance \
-	a_state_passed_in_place_of_its_address_is_refused_and_stays \
-	handles_that_are_foreign_freed_or_made_up_are_refused_and_never_followed
-LEAK_TESTS3 := a_damaged_state_is_refused_and_a_whole_one_continues_bit_for_bit what_this_fmu_does_not_have_is_refused_politely \
-	adjoint_derivatives_are_the_transpose_of_directional_ones
-LEAK_TESTS_WITHIN := everything_else_is_refused_within_a_step_and_changes_nothing a_master_that_frees_the_instance_within_a_step_gets_an_error \
-	a_step_that_cannot_be_computed_half_way_is_taken_back_as_a_whole
+LEAK_TESTS := fmi_state::a_run_from_a_saved_state_is_the_first_bit_for_bit \
+	fmi_state::a_serialized_state_continues_in_another_instance \
+	fmi_state::a_state_passed_in_place_of_its_address_is_refused_and_stays \
+	fmi_state::handles_that_are_foreign_freed_or_made_up_are_refused_and_never_followed \
+	fmi3_lifecycle::a_damaged_state_is_refused_and_a_whole_one_continues_bit_for_bit \
+	fmi3_lifecycle::what_this_fmu_does_not_have_is_refused_politely \
+	fmi3_lifecycle::adjoint_derivatives_are_the_transpose_of_directional_ones \
+	fmi3_intermediate::everything_else_is_refused_within_a_step_and_changes_nothing \
+	fmi3_intermediate::a_master_that_frees_the_instance_within_a_step_gets_an_error \
+	fmi3_intermediate::a_step_that_cannot_be_computed_half_way_is_taken_back_as_a_whole
 
 leak-check:
 	@if command -v valgrind > /dev/null; then \
-		for tests in "fmi_state $(LEAK_TESTS)" "fmi3_lifecycle $(LEAK_TESTS3)" "fmi3_intermediate $(LEAK_TESTS_WITHIN)"; do \
-			set -- $$tests; program=$$1; shift; \
-			WHEELRAIL_KEEP_LOADED=1 $(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' \
-				--test $$program -- --test-threads 1 --exact "$$@" > $(TARGET)/leak-check.log 2>&1; status=$$?; \
-			cat $(TARGET)/leak-check.log; grep -q "$$# passed" $(TARGET)/leak-check.log && [ $$status = 0 ] || exit 1; \
-		done; \
+		WHEELRAIL_KEEP_LOADED=1 $(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' \
+			--test fmi -- --test-threads 1 --exact $(LEAK_TESTS) > $(TARGET)/leak-check.log 2>&1; status=$$?; \
+		cat $(TARGET)/leak-check.log; grep -q "$(words $(LEAK_TESTS)) passed" $(TARGET)/leak-check.log && exit $$status; \
 	else echo "leak-check skipped: valgrind is not installed"; fi
 
 mutations:

@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Digest of some files, and of all in some directories: 64-bit FNV-1a of names and contents, each with its length.
 ///
-/// Equal on every machine and with every compiler, unlike the hashes of the standard library; `tests/basis_code.rs`
+/// Equal on every machine and with every compiler, unlike the hashes of the standard library; `tests/tree/basis_code.rs`
 /// computes it once more.
 fn digest(sources: &[&str]) -> Result<u64, Box<dyn Error>> {
     let mut files: BTreeMap<String, Vec<u8>> = BTreeMap::new();

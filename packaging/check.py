@@ -25,10 +25,10 @@ BINARIES = {
 # Place of a third one, where it has been built; FMI 2.0 has no name for it.
 ARM = "binaries/aarch64-linux/wheelrail.so"
 ARM_GCC = "aarch64-linux-gnu"  # of the compiler that makes a master for it
-FUNCTIONS = 34 + 75  # of FMI 2.0 for co-simulation and of FMI 3.0; tests/fmi_library.rs lists them
+FUNCTIONS = 34 + 75  # of FMI 2.0 for co-simulation and of FMI 3.0; tests/fmi/fmi_library.rs lists them
 GLIBC = (2, 17)  # newest version that linux64 may need
 # Bytes of a library for Linux. Without one of the savings of packaging/build it has more: the unused kernels of products of matrices alone are
-# 1.4 MB. tests/fmi_library.rs watches the size of the ordinary library in every test run.
+# 1.4 MB. tests/fmi/fmi_library.rs watches the size of the ordinary library in every test run.
 SIZE = 6e6
 NEEDED = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
 # Functions that a system computes, each with other last digits: results would depend on it.

@@ -119,7 +119,7 @@ def check(mutations, root):
         if names.count(mutation.name) > 1:
             raise Unfit(f"{mutation.name} stands twice in the table")
         *modules, test = mutation.path.split("::")
-        files = [f"tests/{mutation.program}.rs"]
+        files = ["/".join(["tests", mutation.program, *modules]) + ".rs"]
         if mutation.program in UNITS:
             _, folder = UNITS[mutation.program]
             files = ["/".join([f"{folder}src", *modules[:-1]]) + end for end in (".rs", "/mod.rs", "/tests.rs")]

@@ -50,7 +50,7 @@ class Programs(unittest.TestCase):
         code, said = self.outcome([0, 0, 0])
         self.assertEqual(code, 0)
         self.assertEqual(said.count("round in FOLDER, --nocapture"), 3)
-        self.assertIn("3 programs; failed: none", said)
+        self.assertIn(" s of CPU; failed: none", said)
 
     def test_each_failure_is_named_and_stops_no_other_program(self):
         code, said = self.outcome([0, 101, 0, 1], documentation=1)

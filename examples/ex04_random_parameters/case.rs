@@ -1,6 +1,6 @@
 //! One random parameter set, random inputs and a few steps, through the slave behind the C functions.
 
-use crate::random::Random;
+use super::random::Random;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use wheelrail::fmi::instance::Instance;

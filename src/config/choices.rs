@@ -1,7 +1,7 @@
 //! Choices among named items, and the questions that code asks about them.
 //!
 //! Code outside this file matches on every item or asks one of the questions here, each of which answers for every
-//! item. A new item therefore does not compile until all of them are answered; `tests/architecture.rs` refuses
+//! item. A new item therefore does not compile until all of them are answered; `tests/tree/architecture.rs` refuses
 //! comparisons.
 
 use super::value::{choice, questions};

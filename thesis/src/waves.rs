@@ -1,6 +1,6 @@
 //! Waves in a plate that is held at its base, after a push on its top: Paper A, section 2.5 and figures 5 and 6.
 //!
-//! The bodies are the product's; `tests/rail_ends.rs` of the product uses this file, too.
+//! The bodies are the product's; `tests/wheel/rail_ends.rs` of the product uses this file, too.
 
 use nalgebra::DVector;
 use std::error::Error;

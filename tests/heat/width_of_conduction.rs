@@ -1,0 +1,249 @@
+//! Heat that enters over the width of the contact spreads into rim, web, boss and rail head.
+
+use crate::common;
+use crate::heat_common::{self, Run, deviation, heat};
+use std::f64::consts::PI;
+use wheelrail::analytic::hertz_half_width;
+use wheelrail::config::{CrossSection, Hub};
+use wheelrail::heat::{Exchange, HeatConfig, HeatModel, HeatScratch, HeatSource};
+use wheelrail::piecewise::Piecewise;
+use wheelrail::simulation::{Inputs, Simulation};
+
+/// The heat model of the default parameters with an insulated hub, for a contact of the given width \[m].
+fn config(contact_width: f64) -> HeatConfig {
+    let mut config = common::preset("railway", 10);
+    config.thermal.hub = Hub::Insulated;
+    let wheelrail::config::Config { wheel, rail, material, thermal, .. } = config;
+    let modulus = wheelrail::analytic::contact_modulus(material.youngs_modulus, material.poissons_ratio);
+    let half_width = hertz_half_width(100e3 / 0.014, wheel.radius, modulus);
+    let zone = 1.5 * half_width;
+    HeatConfig {
+        wheel,
+        rail,
+        material,
+        thermal,
+        contact_width,
+        elements_per_half_width: 10,
+        half_width,
+        zone,
+        reach: zone,
+    }
+}
+
+/// `∫ f dx` from 0 to `end` by the midpoint rule.
+fn integral(end: f64, f: impl Fn(f64) -> f64) -> f64 {
+    const POINTS: u32 = 4000;
+    let h = end / f64::from(POINTS);
+    h * (0..POINTS).map(|i| f(h * (f64::from(i) + 0.5))).sum::<f64>()
+}
+
+/// `∫₀ˣ erf(u) du`.
+fn integral_of_erf(x: f64) -> f64 {
+    // ∫₀ˣ (x − u) 2/√π e^{−u²} du, in which the integrand is nothing beyond 7.
+    let end = x.min(7.0);
+    2.0 / PI.sqrt() * integral(end, |u| (x - u) * (-u * u).exp())
+}
+
+/// Mean temperature of a strip of the width `w` \[m] under the flux 1 W/m² since `time` \[s], on a half-space.
+///
+/// A strip source that is held for dτ leaves `dτ/(ρc √(πκτ))` times the share of its heat that is still below the
+/// strip, a Gaussian in the distance across (Carslaw & Jaeger, *Conduction of Heat in Solids*, 2nd ed., 10.5), whose
+/// mean over the strip is `(L/w) ∫ erf(u) du` from 0 to `w/L`, `L = √(4κτ)`.
+fn mean_of_the_strip(w: f64, time: f64, diffusivity: f64, heat_capacity: f64) -> f64 {
+    const STEPS: i32 = 400;
+    let h = time.sqrt() / f64::from(STEPS);
+    let stays = |root: f64| {
+        let reach = w / (2.0 * root * diffusivity.sqrt());
+        integral_of_erf(reach) / reach
+    };
+    let sum: f64 = (0..STEPS).map(|i| stays(h * (f64::from(i) + 0.5))).sum();
+    2.0 * h * sum / (heat_capacity * (PI * diffusivity).sqrt())
+}
+
+/// Heat over the whole circumference spreads like that of an endless strip. The closed form knows no model of ours; the
+/// wheel is made so large that neither its curvature nor its ends are felt.
+#[test]
+fn mean_temperature_of_a_strip_on_a_half_space_is_right_within_3_percent_up_to_60_seconds() {
+    for width in [0.003, 0.005, 0.014, 0.04] {
+        let config = heat_common::with(config(width), |c| {
+            (c.wheel.radius, c.wheel.hub_radius) = (20.0, 18.0);
+            (c.thermal.rim_width, c.thermal.rim_depth, c.thermal.block_width) = (10.0, 2.0, width);
+        });
+        let heat = heat(&config);
+        let (mut state, mut scratch) = (heat.initial(0.0, 0.0), HeatScratch::default());
+        // 1 W/m² all around.
+        let sources = vec![HeatSource::on_tread(0.0, 2.0 * PI, 2.0 * PI * config.wheel.radius)];
+        let exchange = Exchange { sources, ..Exchange::default() };
+        let (mut time, mut worst) = (0.0, 0.0_f64);
+        for after in [1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0, 20.0, 60.0] {
+            let h = (after - time) / 100.0;
+            (0..100).for_each(|_| _ = heat.advance(&mut state, h, 0.0, 2.0, &exchange, &mut scratch));
+            time = after;
+            let exact = mean_of_the_strip(width, time, config.diffusivity(), config.heat_capacity());
+            let off = deviation(heat.temperatures(&state).wheel_centre, exact);
+            common::figure("strip", &[off]);
+            println!("width {:.0} mm, {time} s: {:+.2} %", 1e3 * width, 100.0 * off);
+            worst = worst.max(off.abs());
+        }
+        assert!(worst < 0.03, "{worst}");
+    }
+}
+
+/// Section of the real wheel times its circumferences: rim, web and boss. The part that conducts ends a little deeper
+/// than the real rim, whose flanks are further from the contact; the web is shorter by that.
+#[test]
+fn a_warm_wheel_holds_the_heat_of_its_rim_web_and_boss() {
+    let content = |config: &HeatConfig| {
+        let heat = heat(config);
+        heat.heat_content(&heat.initial(1.0, 0.0)).unwrap()[0] * config.contact_width / config.heat_capacity()
+    };
+    let config = config(0.014);
+    let (r, t) = (config.wheel.radius, &config.thermal);
+    let ring = |outer: f64, inner: f64| PI * (outer * outer - inner * inner);
+    let inside = r - t.rim_depth;
+    let rim = t.rim_width * ring(r, inside);
+    let whole =
+        rim + t.web_width * ring(inside, t.boss_radius) + t.boss_width * ring(t.boss_radius, config.wheel.hub_radius);
+    let mass = config.material.density * content(&config);
+    println!(
+        "{mass:.1} kg, {:.1} kg of it rim; drawn {:.1} kg",
+        config.material.density * rim,
+        config.material.density * whole
+    );
+    assert!((content(&config) / whole - 1.0).abs() < 0.05);
+    // Next to nothing but rim.
+    let alone = heat_common::with(config.clone(), |c| (c.thermal.web_width, c.thermal.boss_width) = (1e-4, 1e-4));
+    let bare = 1e-4 * ring(inside, config.wheel.hub_radius);
+    assert!((content(&alone) / (rim + bare) - 1.0).abs() < 2e-3, "{}", content(&alone) / rim);
+    let narrow = heat_common::with(config.clone(), |c| c.thermal.cross_section = CrossSection::Contact);
+    let slice = 0.014 * ring(r, config.wheel.hub_radius);
+    assert!((content(&narrow) / slice - 1.0).abs() < 1e-12);
+    // At next to no cost.
+    let unknowns = [&config, &narrow].map(|config| heat(config).unknowns());
+    println!("{unknowns:?} unknown temperatures");
+    assert!(unknowns[0] as f64 / (unknowns[1] as f64) < 1.15);
+}
+
+/// A wheel as wide as the contact throughout, whose web or boss is twice as wide, holds that much more; below the cone in which
+/// heat spreads the rail is as wide as its head.
+#[test]
+fn web_boss_and_head_hold_the_heat_of_their_own_widths() {
+    let content = |body: usize, change: &dyn Fn(&mut HeatConfig)| {
+        let config = heat_common::with(config(0.014), |c| {
+            (c.thermal.rim_width, c.thermal.web_width, c.thermal.boss_width) = (0.014, 0.014, 0.014);
+            change(c);
+        });
+        let heat = heat(&config);
+        heat.heat_content(&heat.initial(1.0, 1.0)).unwrap()[body] * config.contact_width / config.heat_capacity()
+    };
+    let ring = |outer: f64, inner: f64| PI * (outer * outer - inner * inner);
+    let even = content(0, &|_| ());
+    let web = content(0, &|c| c.thermal.web_width = 0.028) - even;
+    let boss = content(0, &|c| c.thermal.boss_width = 0.028) - even;
+    let tall = |height: f64| content(1, &|c| c.rail.height = height);
+    let (head, length) = (tall(0.12) - tall(0.1), config(0.014).rail.length);
+    for (name, found, expected) in [
+        ("wheel", even, 0.014 * ring(0.46, 0.046)),
+        ("web", web, 0.014 * ring(0.46 - 0.06, 0.13)),
+        ("boss", boss, 0.014 * ring(0.13, 0.046)),
+        ("head", head, 0.072 * 0.02 * length),
+    ] {
+        println!("{name}: {found:.6e} for {expected:.6e} m3");
+        assert!((found / expected - 1.0).abs() < 1e-6, "{name}: {found:e} for {expected:e} m3");
+    }
+}
+
+/// Area of tread, rim sides and both sides of the web times the coefficient.
+#[test]
+fn a_warm_wheel_loses_heat_to_the_air_from_tread_rim_and_web() {
+    let config = heat_common::with(config(0.014), |c| c.thermal.convection = 20.0);
+    let heat = heat(&config);
+    let mut state = heat.initial(100.0, 0.0);
+    let flows = heat.advance(&mut state, 1e-3, 10.0, 20.0, &Exchange::default(), &mut HeatScratch::default());
+    let (r, t) = (config.wheel.radius, &config.thermal);
+    let ring = |outer: f64, inner: f64| PI * (outer * outer - inner * inner);
+    let area = 2.0 * PI * r * t.rim_width + 2.0 * ring(r, t.boss_radius);
+    let ratio = flows.wheel_to_air * config.contact_width / (20.0 * 100.0 * area);
+    println!("{:.1} W from {area:.3} m2, ratio {ratio:.4}", flows.wheel_to_air * config.contact_width);
+    assert!((ratio - 1.0).abs() < 1e-3, "{ratio}");
+    assert!(flows.relative_imbalance() < 1e-9);
+}
+
+/// A rail that streams through the friction heat of an elliptic pressure. To first order the mean over the strip loses
+/// `√(κt/π)/w` to the sides, `t` the time since the leading edge: half a per cent at 36 km/h. That is physics of a
+/// strip, which an infinitely wide contact does not have; nothing else changes.
+#[test]
+fn the_flash_temperature_loses_little_to_the_sides() {
+    for speed in [10.0, 30.0, 60.0] {
+        let rise = |cross_section: CrossSection| {
+            let config = heat_common::with(config(0.014), |c| {
+                (c.thermal.cross_section, c.thermal.wheel_share) = (cross_section, 0.0);
+            });
+            let (heat, a) = (heat(&config), config.half_width);
+            let power = |x: f64| 2e6 * speed * (1.0 - (x / a).powi(2)).max(0.0).sqrt();
+            let friction_power = Piecewise::sampled(-a, a, 200, power);
+            let exchange = Exchange { friction_power, ..Exchange::default() };
+            let (state, _) = heat.stationary(speed, 0.0, &exchange).unwrap();
+            heat.temperatures(&state).rail_max
+        };
+        let off = rise(CrossSection::Bodies) / rise(CrossSection::Contact) - 1.0;
+        let config = config(0.014);
+        // The hottest place lies 0.65 a behind the middle.
+        let time = 1.65 * config.half_width / speed;
+        let expected = -(config.diffusivity() * time / PI).sqrt() / config.contact_width;
+        println!("{speed} m/s: flash temperature {:+.4} %, expected {:+.4} %", 100.0 * off, 100.0 * expected);
+        assert!((off / expected - 1.0).abs() < 0.2, "{off}");
+    }
+}
+
+/// In plane strain it would grow by 1 + ν times as much. Only its hub is cold here.
+#[test]
+fn a_warm_free_wheel_grows_by_expansion_times_temperature_times_radius() {
+    let mut config = common::preset("railway", 10);
+    config.thermal.wheel_excess = 100.0;
+    let inputs = Inputs::rolling(&config);
+    let simulation = Simulation::new(common::model(config), &inputs).unwrap();
+    let o = simulation.outputs();
+    let bulk = o.temperature_wheel_bulk - 293.0;
+    println!("growth {:.6e} m at {bulk:.3} K", o.thermal_growth);
+    assert!((o.thermal_growth / (1.2e-5 * bulk * 0.46) - 1.0).abs() < 1e-9);
+    assert!((bulk / 100.0 - 1.0).abs() < 0.03);
+}
+
+/// Stefan and Boltzmann's law on the same area, and its cooling of a body that is warm throughout.
+#[test]
+fn a_hot_wheel_radiates_and_cools_alike_in_short_and_long_steps() {
+    let config = heat_common::with(config(0.014), |c| c.thermal.emissivity = 0.8);
+    let heat = heat(&config);
+    let (r, t) = (config.wheel.radius, &config.thermal);
+    let ring = |outer: f64, inner: f64| PI * (outer * outer - inner * inner);
+    let area = 2.0 * PI * r * t.rim_width + 2.0 * ring(r, t.boss_radius);
+    let flux = |excess: f64| 0.8 * 5.670374e-8 * ((t.reference + excess).powi(4) - t.reference.powi(4));
+    let mut scratch = HeatScratch::default();
+    let mut advance = |state: &mut _, h: f64| {
+        let flows = heat.advance(state, h, 10.0, 20.0, &Exchange::default(), &mut scratch);
+        assert!(flows.relative_imbalance() < 1e-9, "{flows:?}");
+        flows.wheel_to_air * config.contact_width
+    };
+    for excess in [20.0, 500.0] {
+        let ratio = advance(&mut heat.initial(excess, 0.0), 1.0) / (area * flux(excess));
+        assert!((ratio - 1.0).abs() < 5e-3, "{ratio}");
+    }
+    let start = heat.initial(500.0, 0.0);
+    let capacity = heat.heat_content(&heat.initial(1.0, 0.0)).unwrap()[0] * config.contact_width;
+    let mut cooled = |h: f64| {
+        let mut state = start.clone();
+        (0..(2000.0 / h) as usize).for_each(|_| _ = advance(&mut state, h));
+        heat.temperatures(&state).wheel_mean
+    };
+    let reference = cooled(1.0);
+    // All of it at one temperature: an upper bound of what it loses, since the rim is warmer than the web.
+    let lumped = (0..2000).fold(500.0, |excess, _| excess - area * flux(excess) / capacity);
+    println!("mean after 2000 s: {reference:.2} K, all at one temperature {lumped:.2} K");
+    assert!((reference / lumped - 1.0).abs() < 0.05);
+    for h in [10.0, 100.0, 500.0] {
+        let found = cooled(h);
+        println!("steps of {h} s: {:+.3} %", 100.0 * (found / reference - 1.0));
+        assert!((found / reference - 1.0).abs() < if h > 100.0 { 0.05 } else { 0.01 });
+    }
+}
