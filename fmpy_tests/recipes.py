@@ -85,6 +85,17 @@ CHECKOUT = (
         ("python3 tools/same_results.py BEFORE AFTER [--only NAME,NAME] [--tolerance 0] [--jobs 2]",), "same",
     ),
     Recipe(".venv/bin/python examples/ex00_minimal.py", says="temperature.wheel_max"),
+    Recipe(".venv/bin/python examples/ex18_next_wheel.py", says="braking force"),
+    Recipe(
+        ".venv/bin/python examples/ex17_own_controller.py --seconds 0.2",
+        (".venv/bin/python examples/ex17_own_controller.py", ".venv/bin/python examples/ex17_own_controller.py --controller my.fmu --step 2e-3"),
+        "no protection",
+    ),
+    Recipe(
+        ".venv/bin/python -m wheelrail ssp examples/train/low_adhesion.json --coach target/release --out {out} && .venv/bin/python "
+        "examples/ex17_own_controller.py --package {out}/coach_and_wheels.ssp --out {out}/own.ssp",
+        (".venv/bin/python examples/ex17_own_controller.py --package target/coach_and_wheels.ssp --out own.ssp",), "own.ssp",
+    ),  # fmt: skip
     Recipe(".venv/bin/python -m pytest -s fmpy_tests/test_dependencies.py", (".venv/bin/python -m pytest -s",), " passed"),
 )
 
