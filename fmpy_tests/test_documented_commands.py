@@ -233,7 +233,6 @@ BEFORE = {
     "docs/train.md": "class MyProtection:\n    def __init__(self, wsp, speeds):\n        self.n = len(speeds)\n    def step(self, h, speeds):\n        return ['apply'] * self.n\n",
 }
 SHORTER = {
-    "docs/README.md": [("stop_time=5", "stop_time=0.5")],
     "docs/packages.md": [("stop_time=5.0", "stop_time=0.05")],
     "docs/damage.md": [("stop=0.3", "stop=0.05"), ("range(150)", "range(40)")],
     "docs/train.md": [('"speed": 20.0', '"speed": 0.5'), ("Stop(loaded, fmu)", "Stop(loaded)")],
