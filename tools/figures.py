@@ -37,7 +37,7 @@ FIELDS = ("name", "value", "unit", "better", "printed by", "reason")
 # A change by less than this share is neither better nor worse.
 SHARE = 0.2
 # Rows of docs/validation.md whose measured values have no mark. Who marks one lowers it.
-BY_HAND = 6
+BY_HAND = 4
 NUMBER = re.compile(r"(?<![\w.])[+−-]?(?:\d+(?:\.\d+)?|\.\d+)(?:e[+−-]?\d+)?(?!\w)")
 NAME = r"[A-Za-z][\w.]*"
 LINE = re.compile(rf"^figure: (?P<name>{NAME})(?: \[(?P<unit>[^]]+)\])? = (?P<values>[^±<\n]+)(?: (?P<better>[±<] \S+))?$", re.MULTILINE)
