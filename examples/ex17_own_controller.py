@@ -4,9 +4,10 @@
     .venv/bin/python examples/ex17_own_controller.py --controller my.fmu --step 2e-3
     .venv/bin/python examples/ex17_own_controller.py --package target/coach_and_wheels.ssp --out own.ssp
 
-The last line puts the controller before the brakes of all axles of the coach that `make ssp` packs. Without --controller the brake with slide protection of examples/controller/slide_control.c is compiled by `cc` and packed; the same
-in Python is slide_control.py beside it. Another controller needs the variables of `TO_CONTROLLER` and `TO_WHEEL`, or changes of these
-two tables. Printed: what the wheel did, for every communication step, and without protection.
+The last command puts the controller before the brakes of all axles of the coach that `make ssp` packs. Without --controller the brake
+with slide protection of examples/controller/slide_control.c is compiled by `cc` and packed; slide_control.py beside it is the same in
+Python. Another controller needs the variables of `TO_CONTROLLER` and `TO_WHEEL`, or changes of these two tables. Printed: what the wheel
+did, for every communication step, and without protection.
 """
 
 import argparse
@@ -26,8 +27,12 @@ DEMAND = 8000.0  # N m on the wheel, more than twice what this rail carries
 WATCHED = ("contact.slide", "contact.force_x", "temperature.wheel_max", "wheel.velocity", "wheel.distance")
 # Of the controller in C, in the order of its value references: name, causality, start.
 VARIABLES = (
-    ("velocity", "input", 0.0), ("omega", "input", 0.0), ("demand", "parameter", DEMAND), ("radius", "parameter", 0.46), ("torque", "output", None),
-)  # fmt: skip
+    ("velocity", "input", 0.0),
+    ("omega", "input", 0.0),
+    ("demand", "parameter", DEMAND),
+    ("radius", "parameter", 0.46),
+    ("torque", "output", None),
+)
 
 
 def packed(folder):
@@ -38,7 +43,8 @@ def packed(folder):
     for number, (name, causality, start) in enumerate(VARIABLES):
         kind = "fixed" if causality == "parameter" else "continuous"
         real = "<Real/>" if start is None else f'<Real start="{start}"/>'
-        variables += f'<ScalarVariable name="{name}" valueReference="{number}" causality="{causality}" variability="{kind}">{real}</ScalarVariable>'
+        head = f'name="{name}" valueReference="{number}" causality="{causality}" variability="{kind}"'
+        variables += f"<ScalarVariable {head}>{real}</ScalarVariable>"
     description = (
         '<?xml version="1.0" encoding="UTF-8"?><fmiModelDescription fmiVersion="2.0" modelName="slide_control" guid="{17}">'
         '<CoSimulation modelIdentifier="slide_control" canHandleVariableCommunicationStepSize="true"/>'

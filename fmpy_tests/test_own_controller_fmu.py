@@ -38,6 +38,24 @@ def test_steps_up_to_the_cycle_of_the_controller_brake_alike_and_longer_ones_wor
     assert max(slides.values()) < 0.7 and unprotected[-1]["contact.slide"] == 1.0
 
 
+@pytest.mark.parametrize("share, stable", [(1.5, True), (2.3, False)])
+def test_a_moment_that_answers_the_speed_of_a_sliding_wheel_is_stable_below_twice_the_inertia_over_the_step(start, share, stable):
+    wheel = start({"initial.velocity": 20.0, "friction.coefficient": 0.05, "friction.softening": 0.0}, {"control.translation": "velocity"})
+    gain, radius = 1000.0, wheel.get("wheel.radius")
+    step, before, speeds = share * wheel.get("wheel.inertia") / gain, 0.0, []
+    wheel.set({"drive.velocity": 20.0})
+    for k in range(60):
+        speeds.append(wheel.get("wheel.omega"))
+        # A ramp into the slide, then the friction of a wheel at 30 % slide and what brings it there.
+        after = -4000.0 * (k + 1) / 3 if k < 3 else -0.05 * 1e5 * radius - gain * (speeds[-1] - 14.0 / radius)
+        wheel.set({"drive.moment": before, "drive.moment_rate": (after - before) / step})
+        wheel.step(step)
+        before = after
+    swing = max(speeds[-10:]) - min(speeds[-10:])
+    print(f"K h = {share} I: {swing:.3f} rad/s in the last ten steps")
+    assert swing < 0.1 if stable else swing > 5.0
+
+
 def test_fmpy_simulates_the_package_of_a_coach_with_the_controller_on_every_axle(packed, fmu, controller, tmp_path):
     assert validate_fmu(controller) == []
     built = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release"

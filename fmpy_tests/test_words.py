@@ -60,7 +60,8 @@ def test_no_private_word_stands_on_a_page():
 
 
 def test_private_words_are_seen_in_prose_and_not_in_code():
-    page = "# House\n\nAll rooms, `make house` and [it](rooms.svg).\n\n    make house\n\n```text\nroom\n```\n\nKept\naside; the doorway, the Judgement.\n"
+    code = "    make house\n\n```text\nroom\n```\n"
+    page = f"# House\n\nAll rooms, `make house` and [it](rooms.svg).\n\n{code}\nKept\naside; the doorway, the Judgement.\n"
     seen = sorted(line.split(" (")[0] for line in found("a.md", page))
     assert seen == ["a.md:11: Kept aside", "a.md:12: Judgement", "a.md:1: House", "a.md:3: rooms"]
     assert not list(found("docs/thesis.md", "A judgement."))
