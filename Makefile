@@ -1,58 +1,57 @@
 # make demo      braking stop from 100 km/h through fmpy: table, CSV, picture and page (report.html) in results/
 # make help      these lines
-# make test      every test, Rust and fmpy
+# make test      every test, Rust and fmpy; of it test-rust (COMPILE=1 only compiles its programs) and test-fmpy
 # make loop TEST=brake  the tests of one file after an edit, or of a folder of tests/ (TEST=tree: architecture and documents), or
 #                unit tests (TEST=lib); ARGS=name runs those of that name
-# make fmu       target/wheelrail.fmu, and target/wheelrail.cdx.json: the crates that are linked into its library
-#                make fmu PROFILES=no leaves the points of profiles out of its description (target/wheelrail-slim.fmu)
-# make fmu3      target/wheelrail-fmi3.fmu: the same wheel with the interface of FMI 3.0
+# make fmu       target/wheelrail.fmu, target/wheelrail-fmi3.fmu with the interface of FMI 3.0, and target/wheelrail.cdx.json: the
+#                crates that are linked into their library. PROFILES=no leaves the points of profiles out of the description
+#                (target/wheelrail-slim.fmu). ALL=1: for Linux (glibc 2.17) and Windows, target/wheelrail-all.fmu and
+#                target/wheelrail-fmi3-all.fmu; says which compilers are missing; CHECK=1 tries all binaries in a master written
+#                in C, that for Windows under wine, that for ARM under qemu, and compares results
+# make wheel     the Python package with the FMU of this machine and the examples inside: target/wheelrail-*.whl. ALL=1: with the
+#                FMU for Linux and Windows, and an sdist for other platforms, in target/dist
 # make ssp       target/coach_and_wheels.ssp and target/osp/: a coach and four wheelsets for other people's masters
-# make reference the run in examples/reference that users can compare theirs with
-# make fmu-all   target/wheelrail-all.fmu and, of FMI 3.0, target/wheelrail-fmi3-all.fmu for Linux (glibc 2.17) and Windows; says which compilers are missing
-# make platforms-check all binaries of them in a master written in C, that for Windows under wine, that for ARM under qemu: results compared
-# make python-wheel  the Python package with the FMU of this machine and the examples inside: target/wheelrail-*.whl
-# make python-dist   the same with the FMU for Linux and Windows, and an sdist for other platforms, in target/dist
 # make release   what is handed out with a version, in target/handout: FMUs for several platforms, wheel, sdist, SSP, pages, notes, checksums
-# make masters   explicit and iterative coupling near standstill: table and plot in results/
 # make train     a coach brakes on low adhesion, dry, with and without slide protection: table, CSV, plot and page in results/low_adhesion/
 #                make train SCENARIO=my/scenario.json; FORCE=1 overwrites results that are there
 # make sweep     many such stops on all workers, or on a cluster: make sweep SCHEDULER=tcp://host:8786
-# make suspension  held, ramped, velocity and iterative coupling through a stiff suspension: table and plot in results/
-# make creep-curve creep curve of a locomotive to 21 % against its measurement: table and plot in results/
-# make eight-wheels  eight wheels through fmpy, held, varying and in a slide, on one line and on seven, one after the other and on
-#                threads: simulated over wall time; BEFORE=older.fmu runs beside it in turn
-# make flat      a locked wheel, its hot spot and what is left of it: table and plot in results/
-# make own-vehicle a wagon of one's own on eight wheels, one axle of which seizes: table and plot in results/
-# make surfaces  waves, holes, rough rails, flats and the contact filter: table and plot in results/
-# make ellipse   one brake application on patches of constant width and on an elliptical one: table and plot in results/
-# make published published tests and observations beside what is computed: table and picture in results/
-# make angle-of-attack  a wheel turned while it brakes, beside one that runs straight: table and plot in results/
-# make hunting   a wheelset of two wheels on springs below and above its critical speed, beside linear theory: table and plot in results/
-# make locked-wheels wheels locked at five speeds, three steps and three meshes, and those of every preset by speed and by brake:
-#                pressure, temperature, friction; an error where a limit is broken
+# make study NAME=hunting  one of these, with table and plot in results/; each has --help:
+#                masters          explicit and iterative coupling near standstill
+#                suspension       held, ramped, velocity and iterative coupling through a stiff suspension
+#                creep-curve      creep curve of a locomotive to 21 % against its measurement
+#                eight-wheels     eight wheels through fmpy, held, varying and in a slide, on one line and on seven, one after the
+#                                 other and on threads: simulated over wall time; --before older.fmu runs beside it in turn
+#                flat             a locked wheel, its hot spot and what is left of it
+#                own-vehicle      a wagon of one's own on eight wheels, one axle of which seizes
+#                surfaces         waves, holes, rough rails, flats and the contact filter
+#                ellipse          one brake application on patches of constant width and on an elliptical one
+#                published        published tests and observations beside what is computed
+#                angle-of-attack  a wheel turned while it brakes, beside one that runs straight
+#                hunting          a wheelset on springs below and above its critical speed, beside linear theory
+#                locked-wheels    wheels locked at five speeds, three steps and three meshes, and those of every preset by speed
+#                                 and by brake: pressure, temperature, friction; an error where a limit is broken
 # make figures   figures that tests have printed beside those of docs/figures.csv, and these beside the pages; ALL=1 misses those
 #                of tests that have not run; ACCEPT=1 REASON="why a worse one is" keeps what was printed and writes the pages
 # make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
 #                with FULL=1 on finer meshes, too, and with 16 points or more a curve; ACCEPT=1 keeps the values that it found
 # make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
-# make bench-ordinary BEFORE=path/libwheelrail.so  steps in ordinary driving, beside an older library in turn; ARGS=--list
-# make instructions  machine instructions of a step, by valgrind, beside those that are kept; says where 5 % have been added
+# make bench NAME=ordinary BEFORE=path/libwheelrail.so  steps in ordinary driving, beside an older library in turn; ARGS=--list
+# make bench NAME=instructions  those of a step, by valgrind, beside those that are kept; says where 5 % have been added
 # make endurance a million steps of mixed driving: failures, memory, energy audit
-# make random-parameters a thousand random parameter sets: simulated or refused by name, never wrong or hanging
-# make random-temperatures 500 random parameter sets: temperatures within their bounds or refused by name
-# make leak-check memory errors and leaks of the FMU's C interface, with valgrind
+# make endurance NAME=parameters  a thousand random parameter sets, simulated or refused by name, never wrong or hanging
+# make endurance NAME=temperatures  500 random parameter sets, temperatures within their bounds or refused by name
+# make endurance NAME=memory  memory errors and leaks of the FMU's C interface, with valgrind
 # make mutations each coefficient of steel, friction, heat, damping and damage 5 % wrong in a copy of the source: whether the test that is
 #                named for it notices; ARGS="film damping" takes those with these words, ARGS=--brief those of unit tests, as `make test` does
-# make house     counts of the source: impl files, fields, duplicate names, comments, long functions, lines
 # make docs      HTML documentation of the library; every warning is an error
 # make bench-page  a wheel that rolls, brakes and locks in the browser: target/bench/index.html; says which compiler is missing
 # make site      these pages with search, formulas set, the API of Python and Rust, and the bench where its compiler is: target/site/index.html
-# make describe  regenerate modelDescription.xml, that of FMI 3.0 (modelDescription3.xml) and docs/reference.md from the variable table
+# make describe  writes modelDescription.xml, that of FMI 3.0 (modelDescription3.xml), docs/reference.md and the run in
+#                examples/reference that users can compare theirs with
 # make clean     remove everything that was built
-#                make TARGET ARGS="..." hands options to the program of any example, train, sweep, endurance and
-#                random-parameters, make ellipse ARGS=--help lists them; OUT=folder puts results elsewhere than in results/
-#                ARGS=--brief shortens masters, suspension, creep-curve, own-vehicle, surfaces, ellipse, angle-of-attack, hunting and published; other short
-#                ones: make demo ARGS=--speed-kmh=20, make flat ARGS="--once --slide 0.1 --roll 0.2"
+#                ARGS="..." hands options to the program of demo, train, sweep, study, bench, endurance and mutations (ARGS=--help
+#                lists them, ARGS=--brief shortens most studies); OUT=folder puts results elsewhere than in results/; other short
+#                ones: make demo ARGS=--speed-kmh=20, make study NAME=flat ARGS="--once --slide 0.1 --roll 0.2"
 
 PYTHON ?= python3
 CARGO ?= cargo
@@ -102,7 +101,8 @@ SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml contact/Cargo.tom
 	docs/flat.png docs/hunting.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 
-.PHONY: demo help test forget-figures test-tools test-rust test-fmpy test-programs environments built packed loop fmu fmu3 compilers fmu-all ssp reference platforms-check python-wheel python-dist release masters suspension creep-curve train sweep eight-wheels flat own-vehicle surfaces ellipse angle-of-attack hunting published locked-wheels thesis figures bench bench-ordinary instructions endurance random-parameters random-temperatures leak-check mutations house docs bench-page site describe clean
+.PHONY: demo help test test-rust test-fmpy environments loop fmu wheel ssp release train sweep study figures thesis bench \
+	endurance mutations docs bench-page site describe clean compilers
 .NOTPARALLEL:
 
 demo: $(FMU) $(INSTALLED)
@@ -111,38 +111,32 @@ demo: $(FMU) $(INSTALLED)
 help:
 	@sed -n '/^#/!q; s/^# //p' $(firstword $(MAKEFILE_LIST))
 
-# The last of them tells which figures of the pages differ from what all others have printed.
-test: forget-figures test-tools test-rust test-fmpy
+# Figures of earlier runs go first: a program may be gone. At last, which figures of the pages differ from what was printed.
+test:
+	rm -rf target/figures
+	@$(MAKE) --no-print-directory test-rust test-fmpy
 	@$(MAKE) --no-print-directory figures ALL=1
 
 # What the tests need: `.ci/run` makes it side by side.
 environments: $(INSTALLED) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 
-built: $(BUILT)
-
-packed: $(FMU) $(FMU3)
-
 # Packages that are tested together, so that all are compiled with the same features.
 UNITS := -p wheelrail -p wheelrail-contact -p wheelrail-numerics
 PACKAGES := $(UNITS) -p wheelrail-slave -p wheelrail-bench
 
-test-programs: $(COACH)
+ifdef COMPILE
+test-rust: $(COACH)
 	$(RELEASE_CARGO) test --release --locked --quiet --no-run $(PACKAGES) --lib --bins --tests
 	$(RELEASE_CARGO) test --release --locked --quiet --no-run -p wheelrail-thesis --lib --bins --tests
-
-# Of earlier runs, from which a program may be gone.
-forget-figures:
-	rm -rf target/figures
-
-test-tools:
-	$(PYTHON) -m unittest discover --quiet tools
-
+else
 test-rust:
+	$(PYTHON) -m unittest discover --quiet tools
 	$(WRAPPED) $(PYTHON) tools/run_tests.py $(PACKAGES)
 	$(WRAPPED) $(PYTHON) tools/run_tests.py -p wheelrail-thesis
 	$(WRAPPED) $(PYTHON) tools/mutations.py --brief
+endif
 
-test-fmpy: $(FMU) $(FMU3) $(COACH) $(BENCH) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
+test-fmpy: environments $(FMU) $(FMU3) $(COACH) $(BENCH)
 	$(PY) -m pytest --numprocesses logical fmpy_tests
 	$(PY) -m unittest discover --quiet --pattern test_structural_width.py tools
 
@@ -152,46 +146,28 @@ loop:
 	@test -n "$(TEST)" || { echo 'make loop TEST=name: a file or a folder in tests/, or lib for the unit tests'; exit 1; }
 	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),$(UNITS) --lib,--test $(PROGRAM)) -- --show-output $(or $(ARGS),$(if $(wildcard tests/*/$(TEST).rs),$(TEST)::))
 
-fmu3: $(FMU3)
+# What fmu and wheel make, by ALL=1 for several platforms. Compilers are looked for before anything is compiled; whoever has
+# the archive needs none. By a variable, so that `make -n` does not run it.
+UP_TO_DATE = $(MAKE) --question --no-print-directory
+ifdef ALL
+fmu wheel: compilers
+endif
+fmu: $(if $(ALL),$(FMU_ALL) $(FMU_ALL3),$(if $(filter no,$(PROFILES)),$(SLIM),$(FMU) $(FMU3)))
+	$(if $(ALL),$(if $(CHECK),$(PYTHON) packaging/check.py $(FMU_ALL) --run && $(PYTHON) packaging/check.py $(FMU_ALL3) --run))
 
-fmu: $(if $(filter no,$(PROFILES)),$(SLIM),$(FMU))
+wheel: $(if $(ALL),$(FMU_ALL),$(FMU)) $(INSTALLED)
+	$(PY) packaging/wheel.py $< --out target$(if $(ALL),/dist)
+	$(if $(ALL),$(PY) packaging/wheel.py --sdist --out target/dist)
 
 ssp: $(FMU) $(COACH) $(INSTALLED)
 	$(PY) -m wheelrail ssp $(SCENARIO) --fmu $(FMU) --coach $(TARGET)/release --out target
 
-reference: $(BUILT)
-	$(PYTHON) examples/reference/make.py --binary $(BINARY)
-
-# Before anything is compiled; whoever has the archive needs no compilers. By a variable, so that `make -n` does not run it.
-UP_TO_DATE = $(MAKE) --question --no-print-directory
 compilers:
 	@$(UP_TO_DATE) $(FMU_ALL) > /dev/null 2>&1 || packaging/build --check
 
-fmu-all: compilers $(FMU_ALL) $(FMU_ALL3)
-
-platforms-check: compilers $(FMU_ALL) $(FMU_ALL3)
-	$(PYTHON) packaging/check.py $(FMU_ALL) --run
-	$(PYTHON) packaging/check.py $(FMU_ALL3) --run
-
-python-wheel: $(FMU) $(INSTALLED)
-	$(PY) packaging/wheel.py $(FMU) --out target
-
-# What is handed out: the wheel for Linux and Windows, and the sdist for what else there is.
-python-dist: compilers $(FMU_ALL) $(INSTALLED)
-	$(PY) packaging/wheel.py $(FMU_ALL) --out target/dist
-	$(PY) packaging/wheel.py --sdist --out target/dist
-
-release: compilers $(FMU_ALL) $(FMU_ALL3) $(SLIM_ALL) python-dist ssp site
+release: compilers $(FMU_ALL) $(FMU_ALL3) $(SLIM_ALL) ssp site
+	@$(MAKE) --no-print-directory wheel ALL=1
 	$(PYTHON) packaging/handout.py $(HANDOUT)
-
-masters: $(FMU) $(INSTALLED)
-	$(PY) examples/ex02_masters.py --fmu $(FMU) --out $(OUT) $(ARGS)
-
-suspension: $(FMU) $(INSTALLED)
-	$(PY) examples/ex07_suspension.py --fmu $(FMU) --out $(OUT) $(ARGS)
-
-creep-curve: $(FMU) $(INSTALLED)
-	$(PY) examples/ex08_creep_curve.py --fmu $(FMU) --out $(OUT) $(ARGS)
 
 train: $(FMU) $(INSTALLED)
 	$(PY) -m wheelrail train $(SCENARIO) --fmu $(FMU) --out $(OUT) $(if $(FORCE),--force) $(ARGS)
@@ -199,36 +175,14 @@ train: $(FMU) $(INSTALLED)
 sweep: $(FMU) $(TRAIN)
 	$(PY) -m wheelrail sweep $(SCENARIO) --fmu $(FMU) --out $(OUT) $(if $(FORCE),--force) $(if $(SCHEDULER),--scheduler $(SCHEDULER)) $(ARGS)
 
-eight-wheels: $(FMU) $(INSTALLED)
-	$(PY) examples/ex09_eight_wheels.py --fmu $(FMU) $(if $(BEFORE),--before $(BEFORE)) $(ARGS)
-
-flat: $(FMU) $(INSTALLED)
-	$(PY) examples/ex06_flat.py --fmu $(FMU) --out $(OUT) $(ARGS)
-
-own-vehicle: $(FMU) $(INSTALLED)
-	$(PY) examples/ex12_own_vehicle.py --fmu $(FMU) --out $(OUT) $(ARGS)
-
-surfaces: $(FMU) $(INSTALLED)
-	$(PY) examples/ex11_surfaces.py --fmu $(FMU) --out $(OUT) $(ARGS)
-
-ellipse: $(FMU) $(INSTALLED)
-	$(PY) examples/ex13_ellipse.py --fmu $(FMU) --out $(OUT) $(ARGS)
-
-published: $(FMU) $(RECORDS)
-	$(PY) examples/ex15_published.py --fmu $(FMU) --out $(OUT) $(ARGS)
-
-angle-of-attack: $(FMU) $(INSTALLED)
-	$(PY) examples/ex14_angle_of_attack.py --fmu $(FMU) --out $(OUT) $(ARGS)
-
-hunting: $(FMU) $(INSTALLED)
-	$(PY) examples/ex16_wheelset.py --fmu $(FMU) --out $(OUT) $(ARGS)
-
-# The second study is made whatever the first one finds; a limit that either of them finds broken ends both with an error.
-LOCKED := $(PYTHON) examples/ex05_locked_wheels.py --binary $(BINARY) --cache $(CACHE) --out results
-locked-wheels: $(BUILT)
-	$(LOCKED); first=$$?; \
-	$(LOCKED) --name locked_wheels_presets --presets all --by speed,brake --speeds 40,80,120,160,200 --steps 1e-3 --meshes 10 \
-		&& exit $$first
+# The program of a study has its name. Locked wheels are two studies: the second one is made whatever the first one finds; a
+# limit that either of them finds broken ends both with an error.
+PROGRAMS = $(wildcard examples/ex??_$(subst -,_,$(NAME)).py)
+PRESETS := --name locked_wheels_presets --presets all --by speed,brake --speeds 40,80,120,160,200 --steps 1e-3 --meshes 10
+study: $(FMU) $(INSTALLED) $(if $(filter published,$(NAME)),$(RECORDS))
+	@test -f "$(PROGRAMS)" || { echo 'make study NAME=name, one of: $(STUDIES)'; exit 1; }
+	$(PY) $(PROGRAMS) --fmu $(FMU) $(if $(filter eight-wheels,$(NAME)),,--out $(OUT)) $(ARGS); first=$$?; \
+	$(if $(filter locked-wheels,$(NAME)),$(PY) $(PROGRAMS) --fmu $(FMU) --out $(OUT) $(PRESETS) &&) exit $$first
 
 figures:
 	@$(PYTHON) tools/figures.py $(if $(ALL),--all) $(if $(ACCEPT),--accept --reason "$(REASON)")
@@ -238,23 +192,22 @@ thesis:
 	@if command -v octave > /dev/null; then octave --quiet thesis/baseline.m results/thesis/step.txt | tee results/thesis/baseline.txt || true; \
 		else echo "monolithic baseline skipped: octave is not installed"; fi
 
-bench:
-	$(CARGO) bench --locked --bench table
+# Instructions are counted in the program of the steps.
+bench: $(if $(filter instructions,$(NAME)),$(BUILT))
+	$(if $(filter instructions,$(NAME)),$(PYTHON) tools/instructions.py --binary $(BINARY) $(ARGS), \
+		$(CARGO) bench --locked --bench $(or $(NAME),table) -- $(if $(BEFORE),--before $(abspath $(BEFORE))) $(ARGS))
 
-bench-ordinary:
-	$(CARGO) bench --locked --bench ordinary -- $(if $(BEFORE),--before $(abspath $(BEFORE))) $(ARGS)
-
-instructions: $(BUILT)
-	$(PYTHON) tools/instructions.py --binary $(BINARY) $(ARGS)
-
+# Each says what it does in the first lines of `make help`.
+ifeq ($(NAME),temperatures)
+endurance:
+	WHEELRAIL_TEMPERATURE_SETS=500 $(CARGO) test --release --locked --test heat temperature_bounds:: -- --nocapture
+else ifeq ($(NAME),parameters)
+endurance:
+	$(CARGO) run --release --locked --example ex04_random_parameters -- $(ARGS)
+else ifneq ($(NAME),memory)
 endurance:
 	$(CARGO) run --release --locked --example ex03_endurance -- $(ARGS)
-
-random-parameters:
-	$(CARGO) run --release --locked --example ex04_random_parameters -- $(ARGS)
-
-random-temperatures:
-	WHEELRAIL_TEMPERATURE_SETS=500 $(CARGO) test --release --locked --test heat temperature_bounds:: -- --nocapture
+endif
 
 # Masters through the C functions: instantiate, steps, states saved, restored, serialized, misused and freed. Any error
 # that valgrind finds counts, and every block that is definitely lost.
@@ -270,18 +223,17 @@ LEAK_TESTS := fmi_state::a_run_from_a_saved_state_is_the_first_bit_for_bit \
 	fmi3_intermediate::a_master_that_frees_the_instance_within_a_step_gets_an_error \
 	fmi3_intermediate::a_step_that_cannot_be_computed_half_way_is_taken_back_as_a_whole
 
-leak-check:
+ifeq ($(NAME),memory)
+endurance:
 	@if command -v valgrind > /dev/null; then \
 		WHEELRAIL_KEEP_LOADED=1 $(CARGO) test --release --locked --config 'target."cfg(unix)".runner = "$(LEAK_RUNNER)"' \
 			--test fmi -- --test-threads 1 --exact $(LEAK_TESTS) > $(TARGET)/leak-check.log 2>&1; status=$$?; \
 		cat $(TARGET)/leak-check.log; grep -q "$(words $(LEAK_TESTS)) passed" $(TARGET)/leak-check.log && exit $$status; \
-	else echo "leak-check skipped: valgrind is not installed"; fi
+	else echo "no memory was checked: valgrind is not installed"; fi
+endif
 
 mutations:
 	@$(WRAPPED) $(PYTHON) tools/mutations.py $(ARGS)
-
-house:
-	@$(PYTHON) tools/house.py
 
 docs:
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --locked --no-deps --lib --workspace
@@ -304,6 +256,8 @@ describe:
 	mv modelDescription3.xml.new modelDescription3.xml
 	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe --markdown > docs/reference.md.new
 	mv docs/reference.md.new docs/reference.md
+	@$(MAKE) --no-print-directory $(BUILT)
+	$(PYTHON) examples/reference/make.py --binary $(BINARY)
 
 clean:
 	$(CARGO) clean
@@ -404,3 +358,12 @@ $(PLATFORMS): requirements/platforms.txt $(INSTALLED)
 $(SITE): requirements/site.txt $(INSTALLED)
 	$(PIP) --require-hashes -r $<
 	touch $@
+
+# Targets that have become a name of another one.
+STUDIES := masters suspension creep-curve eight-wheels flat own-vehicle surfaces ellipse published angle-of-attack hunting locked-wheels
+NOW = $(if $(filter $(STUDIES),$@),study NAME=$@)$(patsubst $@=%,%,$(subst +, ,$(filter $@=%,fmu3=fmu fmu-all=fmu+ALL=1 \
+	platforms-check=fmu+ALL=1+CHECK=1 python-wheel=wheel python-dist=wheel+ALL=1 bench-ordinary=bench+NAME=ordinary \
+	instructions=bench+NAME=instructions random-parameters=endurance+NAME=parameters random-temperatures=endurance+NAME=temperatures \
+	leak-check=endurance+NAME=memory reference=describe quick=loop+TEST=lib test-times=test-rust)))
+.DEFAULT:
+	@echo "make $@: $(if $(NOW),it is \`make $(NOW)\` now,there is no such target; see make help)" >&2; exit 2

@@ -1,6 +1,6 @@
 """Example 2: masters that own the inertia. Explicit and iterative coupling of the wheel near standstill.
 
-    make masters
+    make study NAME=masters
 
 1. A start state without tangential force (`free_rolling`).
 2. A wheel brakes from 2 m/s almost to rest under masters that differ in what they own and exchange (below).

@@ -1,7 +1,7 @@
 """Example 5: locked wheels. Wheels of every preset that slide for two seconds, at several speeds, steps and meshes, without an FMU
 master.
 
-    make locked-wheels
+    make study NAME=locked-wheels
     python3 examples/ex05_locked_wheels.py --binary target/release/wheelrail --speeds 60 --steps 1e-3,2e-4 --meshes 10,20
 
 A wheel rolls, its rotation is stopped within 20 ms while the vehicle goes on, and it slides. What stops it is its prescribed

@@ -1,6 +1,6 @@
 """Example 6: a wheel flat. A wheel is locked, slides for two seconds, is released and rolls on for ten.
 
-    make flat
+    make study NAME=flat
 
 1. The wheel rolls; its rotation is stopped within 20 ms while the vehicle keeps its speed. It slides.
 2. After two seconds the brake lets go: the rail turns the wheel again, and the hot spot leaves the contact.

@@ -1,6 +1,6 @@
 """Example 7: masters of a vehicle on its primary suspension. A wheel brakes from 5 m/s to rest; how do the sides exchange?
 
-    make suspension
+    make study NAME=suspension
 
 The vehicle (a quarter of a bogie's load) hangs on the wheel by a spring and a damper along the track, as stiff as in the
 Manchester coach; the brake is inside the FMU. Exchanges, over a communication step h:

@@ -1,6 +1,6 @@
 """Example 8: the creep curve of a locomotive, 0 to 21 %, against its measurement.
 
-    make creep-curve
+    make study NAME=creep-curve
 
 Siemens Eurosprinter 127 001 (W. Engel, M. Beck, J. Alders, Elektrische Bahnen 96 (1998) 201-209; as plotted in the user guide of
 CONTACT, E. A. H. Vollebregt, 2025, and read from that plot within 0.01): 10 m/s, 106.7 kN on a wheel of 625 mm. Friction falls

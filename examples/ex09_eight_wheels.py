@@ -1,7 +1,7 @@
 """Example 9: eight wheels, stepped one after the other and on threads.
 
-    make eight-wheels
-    make eight-wheels BEFORE=older.fmu
+    make study NAME=eight-wheels
+    make study NAME=eight-wheels ARGS="--before older.fmu"
 
 A master in Python steps wheels at the same time with nothing but threads: while the FMU computes, its caller does not hold
 the lock of the interpreter. Every instance has its own state; equal ones share their model. Wheels whose brakes differ take steps of

@@ -1,6 +1,6 @@
 """Example 11: irregular surfaces. What force does this rail, this hole, this flat make?
 
-    make surfaces
+    make study NAME=surfaces
 
 1. Corrugation (Paper A, Fig. 11 and 12): waves of 5 um and 5 cm; amplitude of the force over the frequency of excitation beside
    the closed form of `wheelrail.surfaces`.

@@ -1,6 +1,6 @@
 """Example 12: a vehicle of one's own on eight wheels in the FMU. A freight wagon brakes; both sides see one impulse.
 
-    make own-vehicle
+    make study NAME=own-vehicle
 
 The vehicle (`Wagon`: body and two bogies that pitch, springs and dampers) could be a multi-body program of yours: what `Coupled`
 wants of it are `forces`, `advance` and `correct`. Every wheel is an FMU that owns the wheel's mass and inertia. A step of h:

@@ -1,6 +1,6 @@
 """Example 13: one brake application on patches of constant width, of an ellipse and of real profiles: pressure, heat, creepage.
 
-    make ellipse
+    make study NAME=ellipse
 
 From 100 km/h the brake torque grows to 11 kN m within a second, four fifths of what friction can take. `railway` and
 `railway_damage` have one line, as wide as creep forces or peak pressures need it; `railway_ellipse` has the ellipse of Hertz on

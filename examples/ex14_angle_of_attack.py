@@ -1,6 +1,6 @@
 """Example 14: an angle of attack while braking: forces and temperature beside those of the same wheel without it.
 
-    make angle-of-attack
+    make study NAME=angle-of-attack
 
 A right-hand wheel on an elliptical patch brakes from 100 km/h with half of what friction can take. After 0.2 s it is turned by 10
 mrad to the right within 50 ms, as by a curve, and its plane of contact rises by 50 mrad. The tread then slides forward and to the

@@ -1,6 +1,6 @@
 """Example 15: published tests and observations beside what the FMU computes.
 
-    make published
+    make study NAME=published
 
 Each case says where its numbers are from, what was fitted to them and what is predicted:
 

@@ -49,7 +49,7 @@ def packed():
 def packed3():
     """Path of the FMU of FMI 3.0."""
     if not PACKED3.is_file():
-        pytest.exit(f"{PACKED3} does not exist: build it with `make fmu3`", returncode=2)
+        pytest.exit(f"{PACKED3} does not exist: build it with `make fmu`", returncode=2)
     return PACKED3
 
 

@@ -21,9 +21,9 @@ class Recipe:
         return self.texts or (self.typed,)
 
 
-def short(target, arguments, says="written"):
-    """A target whose program gets options by ARGS and a folder by OUT."""
-    return Recipe(f'make {target} ARGS="{arguments}" OUT={{out}}', (f"make {target}",), says)
+def short(study, arguments, says="written"):
+    """A study whose program gets options by ARGS and a folder by OUT."""
+    return Recipe(f'make study NAME={study} ARGS="{arguments}" OUT={{out}}', (f"make study NAME={study}",), says)
 
 
 # In a checkout whose FMU is packed.
@@ -32,7 +32,6 @@ CHECKOUT = (
     Recipe('make demo ARGS="--speed-kmh=20" OUT={out}', ("make demo", "make demo ARGS=--speed-kmh=20"), "written"),
     short("creep-curve", "--brief"),
     short("ellipse", "--brief"),
-    Recipe("make ellipse ARGS=--help", says="--brief"),
     short("angle-of-attack", "--brief"),
     short("hunting", "--brief --speeds 75"),
     short("published", "--brief"),
@@ -41,16 +40,16 @@ CHECKOUT = (
     short("own-vehicle", "--brief"),
     short("surfaces", "--brief"),
     Recipe(
-        'make flat ARGS="--once --slide 0.1 --roll 0.2" OUT={out}', ("make flat", 'make flat ARGS="--once --slide 0.1 --roll 0.2"'), "written"
+        'make study NAME=flat ARGS="--once --slide 0.1 --roll 0.2" OUT={out}', ("make study NAME=flat", 'make study NAME=flat ARGS="--once --slide 0.1 --roll 0.2"'), "written"
     ),
     Recipe(
-        'make eight-wheels ARGS="--seconds 0.02 --settling 0.02 --drives held"', ("make eight-wheels", 'make eight-wheels ARGS="--seconds 5"'), "threads",
+        'make study NAME=eight-wheels ARGS="--seconds 0.02 --settling 0.02 --drives held"', ("make study NAME=eight-wheels", 'make study NAME=eight-wheels ARGS="--seconds 5"'), "threads",
     ),
     Recipe(
-        'make eight-wheels ARGS="--seconds 0.01 --settling 0.05 --drives slide --set preset=railway_ellipse"',
-        ('make eight-wheels ARGS="--set preset=railway_ellipse"',), "threads",
+        'make study NAME=eight-wheels ARGS="--seconds 0.01 --settling 0.05 --drives slide --set preset=railway_ellipse"',
+        ('make study NAME=eight-wheels ARGS="--set preset=railway_ellipse"',), "threads",
     ),
-    Recipe('make eight-wheels BEFORE={fmu} ARGS="--seconds 0.02 --settling 0.02 --drives varying"', ("make eight-wheels BEFORE=older.fmu",), "threads"),
+    Recipe('make study NAME=eight-wheels ARGS="--before {fmu} --seconds 0.02 --settling 0.02 --drives varying"', ('make study NAME=eight-wheels ARGS="--before older.fmu"',), "threads"),
     Recipe(
         "make train SCENARIO={small} OUT={out} FORCE=1",
         ("make train", "make train SCENARIO=my/scenario.json", "make train SCENARIO=my/scenario.json FORCE=1"), "stopping distance",
@@ -60,12 +59,11 @@ CHECKOUT = (
     Recipe('make endurance ARGS="--steps 3000"',
         ("make endurance", "cargo run --release --example ex03_endurance -- --steps 1000000"), "Recover",
     ),  # fmt: skip
-    Recipe("make random-parameters ARGS=2", ("make random-parameters",), "2 parameter sets"),
+    Recipe("make endurance NAME=parameters ARGS=2", ("make endurance NAME=parameters",), "2 parameter sets"),
     Recipe("cargo run --release --locked -p wheelrail-contact --example strip", says="Carter"),
-    Recipe("make fmu", says="Nothing to be done"),
-    Recipe("make fmu3", says="Nothing to be done"),
-    Recipe("make python-wheel", says=".whl"),
-    Recipe("make house", ("make house", "tools/house.py"), "lines"),
+    Recipe("make fmu"),
+    Recipe("make wheel", says=".whl"),
+    Recipe("tools/house.py", says="lines"),
     Recipe("tools/mutations.py --check", says="coefficients stand in the source"),
     Recipe("tools/house.py --all"),
     Recipe("tools/figures.py --by-hand", says="rows"),
@@ -85,6 +83,17 @@ CHECKOUT = (
         ("python3 tools/same_results.py BEFORE AFTER [--only NAME,NAME] [--tolerance 0] [--jobs 2]",), "same",
     ),
     Recipe(".venv/bin/python examples/ex00_minimal.py", says="temperature.wheel_max"),
+    Recipe(".venv/bin/python examples/ex18_next_wheel.py", says="braking force"),
+    Recipe(
+        ".venv/bin/python examples/ex17_own_controller.py --seconds 0.2",
+        (".venv/bin/python examples/ex17_own_controller.py", ".venv/bin/python examples/ex17_own_controller.py --controller my.fmu --step 2e-3"),
+        "no protection",
+    ),
+    Recipe(
+        ".venv/bin/python -m wheelrail ssp examples/train/low_adhesion.json --coach target/release --out {out} && .venv/bin/python "
+        "examples/ex17_own_controller.py --package {out}/coach_and_wheels.ssp --out {out}/own.ssp",
+        (".venv/bin/python examples/ex17_own_controller.py --package target/coach_and_wheels.ssp --out own.ssp",), "own.ssp",
+    ),  # fmt: skip
     Recipe(".venv/bin/python -m pytest -s fmpy_tests/test_dependencies.py", (".venv/bin/python -m pytest -s",), " passed"),
 )
 
@@ -153,11 +162,11 @@ PROGRAM = (
 # What is not run here, and why. Targets, files, options, tests and packages that these name exist all the same: see the test.
 NOT_RUN = {
     "computes for minutes and has no short version; what it measures is compared elsewhere": (
-        "make random-temperatures", "make leak-check", "make bench", "make bench-ordinary", "make bench-ordinary BEFORE=…",
-        "make bench-ordinary BEFORE=older/libwheelrail.so", "make bench-ordinary BEFORE=path/libwheelrail.so",
-        'make bench-ordinary BEFORE=older.fmu ARGS="--cases varying-30,lock-up --repeats 5 --json results/ordinary.json"',
-        'make bench-ordinary BEFORE=older.fmu ARGS="--set mesh.grid_elements_per_half_width=20 --set mesh.elements_per_half_width=10"',
-        "make locked-wheels", "tools/structural_width.py", "tools/structural_width.py wheels",
+        "make endurance NAME=temperatures", "make endurance NAME=memory", "make bench", "make bench NAME=ordinary", "make bench NAME=ordinary BEFORE=…",
+        "make bench NAME=ordinary BEFORE=older/libwheelrail.so", "make bench NAME=ordinary BEFORE=path/libwheelrail.so",
+        'make bench NAME=ordinary BEFORE=older.fmu ARGS="--cases varying-30,lock-up --repeats 5 --json results/ordinary.json"',
+        'make bench NAME=ordinary BEFORE=older.fmu ARGS="--set mesh.grid_elements_per_half_width=20 --set mesh.elements_per_half_width=10"',
+        "make study NAME=locked-wheels", "tools/structural_width.py", "tools/structural_width.py wheels",
         "cargo bench",
     ),
     "recomputes figures of the thesis, most of which its tests compute in every run": (
@@ -170,23 +179,23 @@ NOT_RUN = {
         'cargo run --release --locked -p wheelrail-thesis -- "D 11–15"', 'cargo run --release --locked -p wheelrail-thesis -- "D 16–17"',
     ),
     "this test runs within it, or it compiles everything once more": (
-        ".ci/run", "make test", "make test-fmpy", "make loop TEST=brake", "make loop TEST=heat_closed_forms", "make loop TEST=tree", "make loop TEST=NAME", "make loop TEST=lib ARGS=ROOM::",
+        ".ci/run", "make test", "make test-fmpy", "make loop TEST=brake", "make loop TEST=tree", "make loop TEST=NAME", "make loop TEST=lib ARGS=MODULE::",
         "make figures", "make figures ALL=1", "make figures ACCEPT=1", 'make figures ACCEPT=1 REASON="..."',
-        'make figures ACCEPT=1 REASON="fewer nodes"', "python3 tools/run_tests.py -p wheelrail --test contact", "tools/figures.py --keep locked-wheels make locked-wheels",
+        'make figures ACCEPT=1 REASON="fewer nodes"', "python3 tools/run_tests.py -p wheelrail --test contact", "tools/figures.py --keep locked-wheels make study NAME=locked-wheels",
         "make mutations", "tools/mutations.py", "tools/mutations.py film damping", "tools/mutations.py --factor 0.95",
-        "tools/mutations.py --brief", "tools/figures.py", "make instructions", "tools/instructions.py", "tools/instructions.py --accept", "cargo build --no-default-features --lib",
+        "tools/mutations.py --brief", "tools/figures.py", "make bench NAME=instructions", "tools/instructions.py", "tools/instructions.py --accept", "cargo build --no-default-features --lib",
         "make loop TEST=lib", "make loop TEST=lib ARGS=profile", "make loop TEST=lib ARGS=every_output", "make docs", "make clean", "make fmu PROFILES=no",
         "cargo build --release", "cargo check --release --lib", "cargo loop --test wheel brake::", "cargo test",
         "cargo test --release -p wheelrail-thesis -- --nocapture", "cargo test --release -p wheelrail-thesis --test all NAME::",
         "cargo run --release --example", "tools/run_tests.py", "tools/run_tests.py -p wheelrail -p wheelrail-slave",
     ),
     "writes into the checkout what other tests compare with what is there": (
-        "make describe", "make reference", "python3 examples/reference/make.py --binary target/release/wheelrail",
+        "make describe", "python3 examples/reference/make.py --binary target/release/wheelrail",
         ".venv/bin/python docs/model_png.py", "docs/third_party.py",
     ),
     "needs compilers for Windows, WebAssembly, wine, another machine or packages from the network": (
         "make bench-page",
-        "make fmu-all", "make platforms-check", "make python-dist", "make release", "python3 packaging/handout.py FOLDER", "make site", "make sweep SCHEDULER=tcp://cluster:8786",
+        "make fmu ALL=1", "make fmu ALL=1 CHECK=1", "make wheel ALL=1", "make release", "python3 packaging/handout.py FOLDER", "make site", "make sweep SCHEDULER=tcp://cluster:8786",
         "make sweep SCHEDULER=tcp://host:8786", "dask scheduler", "dask worker tcp://cluster:8786",
         "python3 packaging/hashes.py [FILE...]", "python3 packaging/check.py FMU", "python3 packaging/check.py FMU --run", "wheelrail pack --binary linux64=target/release/libwheelrail.so",
         "wheelrail pack --binary win64=path/to/wheelrail.dll --binary darwin64=path/to/libwheelrail.dylib",

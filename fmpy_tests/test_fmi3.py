@@ -325,7 +325,7 @@ def test_refusals_and_warnings_have_the_same_words(fmu, fmu3):
 
 
 def test_a_master_in_c_gets_the_same_digits_from_both_versions(fmu, fmu3, tmp_path):
-    """The host of `make platforms-check`: 2,000 steps with a wheel that slides, a state saved and restored."""
+    """The host of `make fmu ALL=1 CHECK=1`: 2,000 steps with a wheel that slides, a state saved and restored."""
     if not shutil.which("cc"):
         pytest.skip("no C compiler")
     sys.path.insert(0, str(ROOT / "packaging"))

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-import ex16_wheelset as example
+import ex16_hunting as example
 import numpy as np
 import pytest
 

@@ -9,7 +9,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from documented import blocks
 
 from wheelrail import report, scenario
 from wheelrail.brake import Sander, Valve
@@ -91,11 +90,12 @@ class Nine:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="packs a library for Linux")
-def test_the_class_of_the_page_brakes_by_a_protection_that_is_an_fmu(protection):
-    page = {}
-    exec(next(code for code in blocks()["docs/train.md"] if "class FmuProtection" in code), page)  # noqa: S102
+def test_the_class_of_the_example_brakes_by_a_protection_that_is_an_fmu(protection, monkeypatch):
+    monkeypatch.syspath_prepend(TRAIN)
+    from fmu_protection import FmuProtection
+
     tables = []
-    for protector, parameters in ((page["FmuProtection"], {"file": str(protection)}), (Nine, {})):
+    for protector, parameters in ((FmuProtection, {"file": str(protection)}), (Nine, {})):
         example = builtin(scenario.load(TRAIN / "own_controllers.json", QUICK))
         example.brake.protection, example.brake.protection_parameters = protector, parameters
         tables.append(stopped(example))

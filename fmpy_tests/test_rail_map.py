@@ -1,10 +1,15 @@
 """The rail map: what axles leave is what axles behind them meet, by its law, whatever the cells and steps."""
 
+import sys
+
 import numpy as np
 import pytest
-from documented import blocks
 
+from conftest import ROOT
 from wheelrail.rail_map import RailLaw, RailMap
+
+sys.path.append(str(ROOT / "examples"))
+import ex18_next_wheel as example  # noqa: E402
 
 LAW = RailLaw(cleaning_energy=2000.0, sand_friction=0.2, sand_mass=5e-4, width=0.014, effusivity=13580.0)
 DEGRADED, RECOVERED = 0.08, 0.15
@@ -82,12 +87,10 @@ def test_a_wheel_off_the_map_is_an_error_that_names_the_map():
         rail().leave(0, 99.9, 100.2, 0.0, 1.0)
 
 
-def test_the_second_wheel_of_the_page_brakes_harder_on_what_the_first_one_has_cleaned(packed, monkeypatch):
-    monkeypatch.setenv("WHEELRAIL_FMU", str(packed))
-    code, page = next(code for code in blocks()["docs/train.md"] if "RailMap(" in code), {}
-    exec(code, page)  # noqa: S102
-    first, second = (-force for force in page["forces"])
-    met = page["rail"].friction(3.9, 1)
-    print(f"{first:.0f} N, {second:.0f} N on friction {met:.3f}")
-    assert 0.06 < met < 0.25 and first < 0.0605 * 1e5 and second > 1.2 * first
-    assert page["rail"].temperature(3.0, 1, page["now"]) > 0.0
+def test_the_second_wheel_of_the_example_brakes_harder_on_what_the_first_one_has_cleaned(fmu):
+    met, rail = example.wheels(fmu, 2)
+    (wet, cold, first), (cleaned, warm, second) = met
+    print(f"{-first:.0f} N, {-second:.0f} N on friction {cleaned:.3f}, {warm:.1f} K")
+    assert (wet, cold) == (example.WET, 0.0) and wet < cleaned < example.CLEAN and warm > 1.0
+    assert -first < 1.01 * wet * 1e5 and second < 2.0 * first
+    assert rail.friction(3.0, 2) - rail.friction(3.0, 1) < 0.1 * (rail.friction(3.0, 1) - wet)

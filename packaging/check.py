@@ -1,4 +1,4 @@
-"""Checks an FMU for Linux and Windows: `make fmu-all` and `make platforms-check` call this.
+"""Checks an FMU for Linux and Windows: `make fmu ALL=1` and `make fmu ALL=1 CHECK=1` call this.
 
     python3 packaging/check.py FMU          what the binaries export and need, and their size
     python3 packaging/check.py FMU --run    also runs them in a C master (host.c), Windows under wine, ARM under qemu, and compares

@@ -1,6 +1,6 @@
 """Builds the Python package from python/: a wheel with an FMU, examples and licences inside, and an sdist without an FMU.
 
-    .venv/bin/python packaging/wheel.py FMU [--out FOLDER]      the wheel; `make python-wheel` and `make python-dist` call this
+    .venv/bin/python packaging/wheel.py FMU [--out FOLDER]      the wheel; `make wheel` and `make wheel ALL=1` call this
     .venv/bin/python packaging/wheel.py --sdist [--out FOLDER]  the sdist, for platforms that the wheel does not run on
 
 The wheel bears the names of the platforms whose libraries are in the FMU, so that pip refuses it elsewhere.
@@ -17,7 +17,7 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-# As packaging/check.py demands of the binaries of `make fmu-all`.
+# As packaging/check.py demands of the binaries of `make fmu ALL=1`.
 PORTABLE = {"linux64": "manylinux_2_17_x86_64.manylinux2014_x86_64", "win64": "win_amd64"}
 # Examples that need a checkout: programs in Rust, and one that starts such a program.
 CHECKOUT_ONLY = {"ex03_endurance", "ex04_random_parameters", "ex05_locked_wheels.py", "reference", "__pycache__"}
@@ -42,7 +42,7 @@ def platforms(fmu):
     if found == set(PORTABLE):
         return ".".join(PORTABLE[name] for name in sorted(found))
     if len(found) != 1:
-        sys.exit(f"error: {fmu} has libraries for {', '.join(sorted(found)) or 'no platform'}: expected those of `make fmu` or `make fmu-all`")
+        sys.exit(f"error: {fmu} has libraries for {', '.join(sorted(found)) or 'no platform'}: expected those of `make fmu` or `make fmu ALL=1`")
     return sysconfig.get_platform().replace("-", "_").replace(".", "_")
 
 
@@ -81,7 +81,7 @@ def main():
     if arguments.sdist == (arguments.fmu is not None):
         parser.error("name an FMU or --sdist")
     if arguments.fmu and not arguments.fmu.is_file():
-        parser.error(f"{arguments.fmu} does not exist: build it with `make fmu` or `make fmu-all`")
+        parser.error(f"{arguments.fmu} does not exist: build it with `make fmu` or `make fmu ALL=1`")
     arguments.out.mkdir(parents=True, exist_ok=True)
     out = arguments.out.resolve()
     made = sdist(out) if arguments.sdist else wheel(arguments.fmu, out)

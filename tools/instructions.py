@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Machine instructions of a step, counted by valgrind, beside those that are kept: make instructions
+"""Machine instructions of a step, counted by valgrind, beside those that are kept: make bench NAME=instructions
 
     tools/instructions.py            counts, and says where more than 5 % have been added
     tools/instructions.py --accept   keeps what it counts in benches/instructions.json
@@ -109,7 +109,7 @@ def main():
         counts = dict(zip(CASES, found, strict=True))
     lines, grown = report(counts, json.loads(KEPT.read_text()) if KEPT.exists() else {})
     print("\n".join(lines))
-    figures.keep("\n".join(figure(*case) for case in counts.items()), "make instructions")
+    figures.keep("\n".join(figure(*case) for case in counts.items()), "make bench NAME=instructions")
     if arguments.accept:
         KEPT.write_text(json.dumps({name: round(value) for name, value in counts.items()}, indent=1) + "\n")
         print(f"written: {KEPT.relative_to(ROOT)}")

@@ -89,7 +89,7 @@ class Figures(unittest.TestCase):
         self.assertIn("1 numbers should stand before", self.outcome())
 
     def test_figures_of_tests_must_all_be_printed_where_all_ran_and_those_of_studies_need_not(self):
-        self.says("figure: flat = 3\n", "make surfaces")
+        self.says("figure: flat = 3\n", "make study NAME=surfaces")
         self.page.write_text(PAGE + "3<!--flat:.0f-->\n")
         self.assertEqual(self.outcome("--accept"), 0)
         for file in figures.PRINTED.iterdir():

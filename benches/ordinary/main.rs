@@ -1,4 +1,4 @@
-//! Cost of a step in ordinary driving, of the present library beside an older one: `make bench-ordinary BEFORE=…`.
+//! Cost of a step in ordinary driving, of the present library beside an older one: `make bench NAME=ordinary BEFORE=…`.
 //!
 //! Both libraries are driven through their C functions, each in a process of its own, a few steps in turn, so that both
 //! see the same load of the machine. Times are CPU times of the stepping thread; since a run repeats itself exactly,

@@ -1,4 +1,4 @@
-"""Makes wheelrail_ref.csv from wheelrail_in.csv with the settings of wheelrail_ref.opt: `make reference`.
+"""Makes wheelrail_ref.csv from wheelrail_in.csv with the settings of wheelrail_ref.opt: `make describe`.
 
     python3 examples/reference/make.py --binary target/release/wheelrail
 

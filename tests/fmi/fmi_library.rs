@@ -40,7 +40,7 @@ fn it_needs_nothing_but_the_c_runtime() {
     assert!(needed.iter().all(|name| known.contains(&name.as_str())), "{needed:?}");
 }
 
-/// Largest size of what is loaded of the ordinary library \[bytes]. `make fmu-all` links the same code for whole
+/// Largest size of what is loaded of the ordinary library \[bytes]. `make fmu ALL=1` links the same code for whole
 /// programs and refuses more than 6 MB (`packaging/check.py`); this build has 1.43 times as much.
 #[cfg(target_os = "linux")]
 const LARGEST: u64 = 8_600_000;

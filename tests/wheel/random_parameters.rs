@@ -1,4 +1,4 @@
-//! A sample of random parameter sets inside the declared ranges; `make random-parameters` runs a thousand, each in a
+//! A sample of random parameter sets inside the declared ranges; `make endurance NAME=parameters` runs a thousand, each in a
 //! process of its own.
 
 #[path = "../../examples/ex04_random_parameters/case.rs"]

@@ -11,7 +11,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 /// The results in one table for each paper, with names for numbers.
-const RESULTS: &str = include_str!("../results.md");
+const RESULTS: &str = include_str!("../results.txt");
 
 /// Path of the page.
 pub fn path() -> PathBuf {

@@ -1,6 +1,6 @@
 """Example 16: a wheelset of two FMU wheels on springs hunts.
 
-    make hunting
+    make study NAME=hunting
 
 A wheelset runs along straight track, held by springs in a frame that moves with constant speed. Below the critical speed its motion dies
 out, above it grows to a limit cycle. First wheels are cones: the table compares frequency and growth with those of linear theory, whose
