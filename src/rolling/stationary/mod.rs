@@ -17,7 +17,7 @@ use super::thermal::HeatSupply;
 use crate::axes::Axis;
 use crate::config::{StartTemperature, Tuning};
 use goal::Goal;
-use settle::{scale, settle};
+use settle::{Steel, heated, lines, scale, settle};
 use std::hash::Hasher;
 
 /// Passes of temperatures and contact.
@@ -60,11 +60,12 @@ pub fn start(
 
 /// Stationary state of a goal, with contact and temperatures that belong to each other.
 fn settled(model: &RollingModel, tuning: &Tuning, goal: &Goal, workspace: &mut Workspace) -> Result<State, StepError> {
-    let mut state = settle(model, tuning, goal, Vec::new(), workspace)?;
+    let mut steel = Steel::Yielding;
+    let mut state = settle(model, tuning, goal, lines(model, goal), &mut steel, workspace)?;
     let Some(thermal) = &model.thermal else { return Ok(state) };
     let (mut change, mut averaged) = (f64::INFINITY, 0);
     for pass in 0..MAX_PASSES {
-        let lines = state.lines.iter().map(|line| {
+        let temperatures = state.lines.iter().map(|line| {
             let contact = thermal.contact(&model.contact, &line.contact, goal.drive.temperature);
             let mut temperatures = match model.config.initial.temperature {
                 StartTemperature::Uniform => thermal.uniform(&contact)?,
@@ -79,8 +80,8 @@ fn settled(model: &RollingModel, tuning: &Tuning, goal: &Goal, workspace: &mut W
             }
             Ok(Some(temperatures))
         });
-        let temperatures = lines.collect::<Result<Vec<_>, StepError>>()?;
-        let settled = settle(model, tuning, goal, temperatures, workspace)?;
+        let temperatures = temperatures.collect::<Result<Vec<_>, StepError>>()?;
+        let settled = settle(model, tuning, goal, heated(model, &state.lines, temperatures), &mut steel, workspace)?;
         let before = std::mem::replace(&mut change, difference(model, &state, &settled));
         state = settled;
         if averaged > 0 || pass + 1 >= PLAIN_PASSES && change > CONTRACTION * before {

@@ -34,20 +34,28 @@ const SLIGHT: f64 = 1e-9;
 /// Share of what friction carries beyond which a contact that finds no state fails for want of adhesion.
 const NEARLY_ALL: f64 = 0.99;
 
+/// Steel of a stationary contact. On coarse meshes a very hot contact may find no state in which it yields: from then on it is
+/// that of cold steel, and the first steps yield.
+#[derive(PartialEq)]
+pub(super) enum Steel {
+    Yielding,
+    Cold,
+}
+
 /// Contact force that changes are compared with [N/m].
 pub(super) fn scale(model: &RollingModel, resultant: PerAxis<f64>) -> f64 {
     resultant.height.abs().max(SLIGHT * model.contact.nominal_line_load())
 }
 
-/// Stationary contact at given temperatures of every line.
+/// Stationary contact at the temperatures of the lines, from their contact on.
 pub(super) fn settle(
     model: &RollingModel,
     tuning: &Tuning,
     goal: &Goal,
-    thermal: Vec<Option<ThermalState>>,
+    lines: Vec<Line>,
+    steel: &mut Steel,
     workspace: &mut Workspace,
 ) -> Result<State, StepError> {
-    let load = goal.drive.pressing() / model.wheel.width;
     let [wheel, rail] = model.bodies.at_rest();
     let prescribed = goal.given.map(|drive| matches!(drive, AxisDrive::Prescribed { .. }));
     let mut state = State {
@@ -55,7 +63,7 @@ pub(super) fn settle(
         hub: HubForces { prescribed, ..HubForces::default() },
         wheel,
         rail,
-        lines: lines(model, goal, load, thermal),
+        lines,
         available_friction: goal.drive.friction,
         tread_point: tuning.tread_point,
         ..State::default()
@@ -69,7 +77,7 @@ pub(super) fn settle(
         // The first pass finds out where wheel and rail touch, and whether they do.
         let touching = number > 0 && state.resultant().height > 0.0;
         let pass = Pass { model, goal, friction, touching };
-        let passed = pass.run(&state, &mut trial, workspace, &mut next)?;
+        let passed = pass.run(&state, &mut trial, steel, workspace, &mut next)?;
         // Whether a speed is sought is decided from the second pass on.
         let decided = number > 0 || goal.sought.is_none() && !goal.seeks_aside;
         change = if decided { passed } else { f64::INFINITY };
@@ -86,19 +94,27 @@ pub(super) fn settle(
     Ok(complete(model, goal, &trial, state))
 }
 
-/// Lines that touch and stick under about the `load` [N/m], with given temperatures.
-fn lines(model: &RollingModel, goal: &Goal, load: f64, thermal: Vec<Option<ThermalState>>) -> Vec<Line> {
-    let mut temperatures = thermal.into_iter();
+/// Cold lines that touch and stick under about the load.
+pub(super) fn lines(model: &RollingModel, goal: &Goal) -> Vec<Line> {
+    let load = goal.drive.pressing() / model.wheel.width;
     let line = |_| Line {
         layout: LineLayout::default(),
         contact: ContactState::default(),
         flattening: flattening::none(model),
         worn: 0.0,
-        thermal: temperatures.next().flatten(),
+        thermal: None,
     };
     let mut lines: Vec<_> = (0..model.contact.patch.count).map(line).collect();
     model.contact.patch.at(goal.drive.lateral).lay_out(load * model.wheel.width, &mut lines);
     lines.iter_mut().for_each(|line| line.contact = model.contact.hertzian_guess(load, &line.layout));
+    lines
+}
+
+/// Lines with the contact of other ones, which a settled contact at other temperatures is near, and with temperatures of
+/// their own.
+pub(super) fn heated(model: &RollingModel, lines: &[Line], temperatures: Vec<Option<ThermalState>>) -> Vec<Line> {
+    let heated = |(line, thermal): (&Line, _)| Line { flattening: flattening::none(model), thermal, ..line.clone() };
+    let mut lines: Vec<_> = lines.iter().zip(temperatures).map(heated).collect();
     thermal::share_growth(&mut lines);
     lines
 }
@@ -135,6 +151,7 @@ impl Pass<'_> {
         &self,
         state: &State,
         trial: &mut Trial,
+        steel: &mut Steel,
         workspace: &mut Workspace,
         next: &mut State,
     ) -> Result<f64, StepError> {
@@ -161,11 +178,11 @@ impl Pass<'_> {
             rise: 0.0,
             place: [0.0; 2],
             elevation: goal.drive.elevation,
-            cold_steel: false,
+            cold_steel: *steel == Steel::Cold,
             friction: self.friction,
             edge_tolerance: EDGE_TOLERANCE,
         };
-        self.solve(contact, (state, trial), &mut workspace.contact, next)?;
+        self.solve(contact, (state, trial), steel, &mut workspace.contact, next)?;
         let accelerations = trial.accelerations;
         model.bodies.commit(&operators, free, accelerations, &td, state, next);
 
@@ -195,15 +212,17 @@ impl Pass<'_> {
         &self,
         contact: ContactStep,
         (state, trial): (&State, &Trial),
+        steel: &mut Steel,
         scratch: &mut ActiveSetScratch,
         next: &mut State,
     ) -> Result<(), StepError> {
         let model = self.model;
         let mut solved = model.contact.solve(&contact, &state.lines, &mut next.lines, scratch);
         if let Err(ContactError::NotConverged { .. }) = solved
+            && *steel == Steel::Yielding
             && state.lines.iter().any(|line| !line.weakening().strength.is_empty())
         {
-            // On coarse meshes a very hot contact may find no state that yields: then the first steps yield.
+            *steel = Steel::Cold;
             let contact = ContactStep { cold_steel: true, ..contact };
             solved = model.contact.solve(&contact, &state.lines, &mut next.lines, scratch);
         }
