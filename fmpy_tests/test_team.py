@@ -6,6 +6,7 @@ from weakref import ref
 
 import pytest
 from wheelrail import Team
+from wheelrail.team import LEAST, Patience, adapted
 
 
 def test_every_item_is_done_once_and_results_are_in_their_order():
@@ -80,6 +81,38 @@ def test_a_team_without_orders_sleeps_in_the_end_and_without_patience_at_once(mo
         team.map(str, range(8))
         sleep(0.1)
     assert not taken
+
+
+def test_patience_lasts_as_long_as_it_has_paid():
+    """Ten waits in vain leave a small part of it; what then comes in time brings all of it back in a few more."""
+    most = 1.0
+    after = [most]
+    for waited in [5.0] * 10 + [0.5] * 10:
+        after.append(adapted(after[-1], waited, most))
+    assert after[:4] == [1.0, 0.5, 0.25, 0.125] and after[10] == LEAST * most
+    assert after[11:13] == [2 * LEAST, 4 * LEAST] and after[16:] == [most] * 5
+    assert adapted(0.0, 0.5, 0.0) == adapted(0.0, 0.0, 0.0) == 0.0, "who has none gets none"
+
+
+def test_who_has_waited_in_vain_passes_less_time_awake(monkeypatch):
+    """A clock that goes on by 1 s with every checksum, and by an hour in the sleep that follows."""
+    time, counts = [0.0], []
+
+    class Late:
+        def empty(self):
+            return True
+
+        def get(self):
+            time[0] += 3600.0
+
+    monkeypatch.setattr("wheelrail.team.perf_counter", lambda: time[0])
+    monkeypatch.setattr("wheelrail.team.crc32", lambda _: time.__setitem__(0, time[0] + 1.0))
+    patience = Patience(64.0)
+    for _ in range(9):
+        begin = time[0]
+        patience.wait(Late())
+        counts.append(time[0] - begin - 3600.0)
+    assert counts == [64, 32, 16, 8, 4, 2, 1, 1, 1]
 
 
 def test_a_team_that_is_dropped_or_waits_keeps_neither_threads_nor_wheels():

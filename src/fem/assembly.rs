@@ -73,8 +73,9 @@ fn scatter(dofs: &[Option<usize>; 8], matrix: &ElementMatrix, triplets: &mut Vec
 }
 
 /// Which unknowns share a cell: where the entries of element matrices go, the same for every matrix of a mesh.
-pub struct AssemblyPattern<'a> {
-    mesh: &'a Mesh,
+pub struct AssemblyPattern {
+    /// Points of integration of every cell.
+    points: Vec<[CellPoint; 4]>,
     /// Rows of the matrix: place of the first entry of each, and of the end of the last.
     starts: Vec<usize>,
     /// Columns, ascending within a row; both components of every node that shares a cell.
@@ -83,9 +84,11 @@ pub struct AssemblyPattern<'a> {
     corners: Vec<[Option<usize>; 4]>,
 }
 
-impl<'a> AssemblyPattern<'a> {
-    /// Nodes next to each other on a mesh.
-    pub fn new(mesh: &'a Mesh, dofs: &DofMap) -> Self {
+impl AssemblyPattern {
+    /// Nodes next to each other on a mesh, and where its cells are integrated.
+    pub fn new(mesh: &Mesh, dofs: &DofMap) -> Result<Self, FemError> {
+        let points =
+            (0..mesh.cells.len()).map(|cell| element::points(&mesh.corners(cell))).collect::<Result<_, _>>()?;
         let corners: Vec<[Option<usize>; 4]> =
             mesh.cells.iter().map(|nodes| nodes.map(|node| dofs.unknown(node, 0))).collect();
         let mut neighbours: Vec<Vec<usize>> = vec![Vec::with_capacity(9); dofs.len() / 2];
@@ -106,14 +109,14 @@ impl<'a> AssemblyPattern<'a> {
                 starts.push(columns.len());
             }
         }
-        Self { mesh, starts, columns, corners }
+        Ok(Self { points, starts, columns, corners })
     }
 
     /// Sums element matrices over all cells.
-    pub fn assemble(&self, element: impl Fn(&[CellPoint; 4]) -> ElementMatrix) -> Result<CsrMatrix, FemError> {
+    pub fn assemble(&self, element: impl Fn(&[CellPoint; 4]) -> ElementMatrix) -> CsrMatrix {
         let mut values = vec![0.0; self.columns.len()];
-        for (cell, corners) in self.corners.iter().enumerate() {
-            let matrix = element(&element::points(&self.mesh.corners(cell))?);
+        for (points, corners) in self.points.iter().zip(&self.corners) {
+            let matrix = element(points);
             for (i, row) in corners.iter().enumerate() {
                 let Some(row) = *row else { continue };
                 let (start, width) = (self.starts[row], self.starts[row + 1] - self.starts[row]);
@@ -131,7 +134,7 @@ impl<'a> AssemblyPattern<'a> {
             }
         }
         let rows = self.starts.len() - 1;
-        Ok(CsrMatrix::from_pattern(rows, &self.starts, &self.columns, &values))
+        CsrMatrix::from_pattern(rows, &self.starts, &self.columns, &values)
     }
 }
 
@@ -141,7 +144,7 @@ pub fn assemble(
     dofs: &DofMap,
     element: impl Fn(&[CellPoint; 4]) -> ElementMatrix,
 ) -> Result<CsrMatrix, FemError> {
-    AssemblyPattern::new(mesh, dofs).assemble(element)
+    Ok(AssemblyPattern::new(mesh, dofs)?.assemble(element))
 }
 
 /// Sums boundary matrices over the mesh's open ends.

@@ -1,7 +1,7 @@
 //! Reduced bodies as data that can be stored: what takes a second to compute is packed once.
 //!
-//! Layout of the bytes: 8 of magic, 16 of checksum (UUID version 5 of the rest), then the postcard form of [`Basis`],
-//! whose first field is its key.
+//! Layout of the bytes: 8 of magic, 8 of [checksum] of the rest, then the postcard form of [`Basis`], whose first field is
+//! its key.
 
 use super::reduction::ReducedBasis;
 use super::{BodySystem, MechanicsError, check_size, contact_zone, rail_system, wheel_system};
@@ -11,10 +11,10 @@ use std::sync::mpsc;
 use std::{panic, thread};
 use uuid::Uuid;
 
-const MAGIC: &[u8; 8] = b"WHLRAIL3";
+const MAGIC: &[u8; 8] = b"WHLRAIL4";
 /// Digest of the code that the data depend on (meshes, elements, reduction), from the build script.
 pub const CODE: &str = env!("BASIS_CODE");
-/// Name space of keys and checksums.
+/// Name space of keys.
 const NAMESPACE: Uuid = Uuid::from_u128(0x6f1d_2d0a_5c1e_4f0e_9b57_1f0c_7a5e_33d1);
 
 /// Both reduced bodies.
@@ -38,12 +38,12 @@ pub enum BasisError {
         length: usize,
     },
     /// A basis that was altered or cut.
-    #[error("corrupt basis: checksum {found} instead of {expected}")]
+    #[error("corrupt basis: checksum {found:016x} instead of {expected:016x}")]
     Corrupt {
         /// Checksum in the header.
-        expected: Uuid,
+        expected: u64,
         /// Checksum of the content.
-        found: Uuid,
+        found: u64,
     },
     /// A content that cannot be read or written.
     #[error("unreadable basis: {0}")]
@@ -79,6 +79,18 @@ pub fn key(config: &Config) -> String {
     bytes.extend(lengths.iter().chain(&elastic).chain(&line_load).chain(&zone).flat_map(|value| value.to_le_bytes()));
     bytes.extend(counts.iter().flat_map(|&count| (count as u64).to_le_bytes()));
     Uuid::new_v5(&NAMESPACE, &bytes).to_string()
+}
+
+/// Checksum of bytes: FNV-1a, by eight bytes at a time, of which the last are filled with zeros, and of their number. Every
+/// change within eight bytes changes it; others do but for one in 2⁶⁴.
+fn checksum(bytes: &[u8]) -> u64 {
+    const PRIME: u64 = 0x0000_0100_0000_01b3;
+    let mix = |hash: u64, word: u64| (hash ^ word).wrapping_mul(PRIME).rotate_left(29);
+    let (words, rest) = bytes.as_chunks::<8>();
+    let hash = words.iter().fold(0xcbf2_9ce4_8422_2325, |hash, word| mix(hash, u64::from_le_bytes(*word)));
+    let mut last = [0; 8];
+    last[..rest.len()].copy_from_slice(rest);
+    mix(mix(hash, u64::from_le_bytes(last)), bytes.len() as u64)
 }
 
 /// One body, reduced to the number of `modes` that `parameter` gives.
@@ -137,7 +149,7 @@ impl Basis {
     pub fn to_bytes(&self) -> Result<Vec<u8>, BasisError> {
         let payload = postcard::to_stdvec(self).map_err(|e| BasisError::Encoding(e.to_string()))?;
         let mut bytes = MAGIC.to_vec();
-        bytes.extend(Uuid::new_v5(&NAMESPACE, &payload).as_bytes());
+        bytes.extend(checksum(&payload).to_le_bytes());
         bytes.extend(payload);
         Ok(bytes)
     }
@@ -145,11 +157,10 @@ impl Basis {
     /// Reads what [`Self::to_bytes`] wrote; refuses anything else.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, BasisError> {
         let foreign = BasisError::Foreign { length: bytes.len() };
-        let Some((checksum, payload)) = bytes.strip_prefix(MAGIC).and_then(|rest| rest.split_first_chunk::<16>())
-        else {
+        let Some((expected, payload)) = bytes.strip_prefix(MAGIC).and_then(|rest| rest.split_first_chunk()) else {
             return Err(foreign);
         };
-        let (expected, found) = (Uuid::from_bytes(*checksum), Uuid::new_v5(&NAMESPACE, payload));
+        let (expected, found) = (u64::from_le_bytes(*expected), checksum(payload));
         if expected != found {
             return Err(BasisError::Corrupt { expected, found });
         }
@@ -200,7 +211,7 @@ mod tests {
     #[test]
     fn altered_payloads_with_a_valid_checksum_are_refused_or_consistent() {
         let bytes = Basis::compute(&small(), &mut |_, _| {}).unwrap().to_bytes().unwrap();
-        let payload = &bytes[24..];
+        let payload = &bytes[16..];
         let mut state = 1_u64;
         let mut random = |below: usize| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -220,7 +231,7 @@ mod tests {
                 _ => drop(altered.drain(at..(at + 1 + random(16)).min(payload.len()))),
             }
             let mut file = MAGIC.to_vec();
-            file.extend(Uuid::new_v5(&NAMESPACE, &altered).as_bytes());
+            file.extend(checksum(&altered).to_le_bytes());
             file.extend(&altered);
             match Basis::from_bytes(&file) {
                 Ok(basis) => {

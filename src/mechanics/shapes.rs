@@ -2,7 +2,9 @@
 
 use super::MechanicsError;
 use super::system::BodySystem;
-use crate::linalg::{Cholesky, CsrMatrix, Oscillator, Parity, ParityPart, VibrationModes, lowest_modes_of_parts};
+use crate::linalg::{
+    Cholesky, CsrMatrix, Oscillator, Parity, ParityPart, VibrationModes, lowest_modes_of_parts, side_by_side,
+};
 use nalgebra::{DMatrix, DVector};
 
 /// The fields of one parity, with their stiffness factorised.
@@ -18,17 +20,18 @@ pub(super) struct StaticPart {
 impl StaticPart {
     /// One for each part of a body.
     pub fn all(system: &BodySystem) -> Result<Vec<Self>, MechanicsError> {
-        system.parts().into_iter().map(|part| Self::new(system, part)).collect()
+        let parts = system.parts();
+        side_by_side(parts.len(), |k| Self::new(system, &parts[k])).into_iter().collect()
     }
 
-    fn new(system: &BodySystem, part: ParityPart) -> Result<Self, MechanicsError> {
-        let stiffness = part.fold(&system.stiffness, &part);
+    fn new(system: &BodySystem, part: &ParityPart) -> Result<Self, MechanicsError> {
+        let stiffness = part.fold(&system.stiffness, part);
         let mut ports: Vec<usize> = system.surface.iter().filter_map(|&i| part.place(i)).map(|p| p.0).collect();
         ports.sort_unstable();
         ports.dedup();
         let factor = Cholesky::with_last(&stiffness, &ports)?;
-        let mass = part.fold(&system.mass, &part);
-        Ok(Self { part, mass, factor, ports })
+        let mass = part.fold(&system.mass, part);
+        Ok(Self { part: part.clone(), mass, factor, ports })
     }
 
     /// Adds this part's share of `S K⁻¹ Sᵀ` [m/(N/m)].
@@ -103,12 +106,14 @@ impl Shapes {
     pub fn project(&self, matrix: &CsrMatrix, parity: Parity) -> DMatrix<f64> {
         let mut projected = DMatrix::zeros(self.count(), self.count());
         let flip = usize::from(parity == Parity::Odd && self.parts.len() > 1);
-        for (k, part) in self.parts.iter().enumerate() {
-            let other = (k + flip) % self.parts.len();
-            let image = part.fold(matrix, &self.parts[other]).multiply_columns(&self.fields[other]);
-            let block = product(&self.fields[k], &image);
+        let other = |k: usize| (k + flip) % self.parts.len();
+        let blocks = side_by_side(self.parts.len(), |k| {
+            let image = self.parts[k].fold(matrix, &self.parts[other(k)]).multiply_columns(&self.fields[other(k)]);
+            product(&self.fields[k], &image)
+        });
+        for (k, block) in blocks.iter().enumerate() {
             for (i, &row) in self.places[k].iter().enumerate() {
-                for (j, &column) in self.places[other].iter().enumerate() {
+                for (j, &column) in self.places[other(k)].iter().enumerate() {
                     projected[(row, column)] = block[(i, j)];
                 }
             }
@@ -119,8 +124,10 @@ impl Shapes {
     /// `φᵀ A φ` of each field for an even matrix.
     pub fn squares(&self, matrix: &CsrMatrix) -> DVector<f64> {
         let mut squares = DVector::zeros(self.count());
-        for ((part, fields), places) in self.parts.iter().zip(&self.fields).zip(&self.places) {
-            let image = part.fold(matrix, part).multiply_columns(fields);
+        let images = side_by_side(self.parts.len(), |k| {
+            self.parts[k].fold(matrix, &self.parts[k]).multiply_columns(&self.fields[k])
+        });
+        for ((image, fields), places) in images.iter().zip(&self.fields).zip(&self.places) {
             for (j, &place) in places.iter().enumerate() {
                 squares[place] = fields.column(j).dot(&image.column(j)).max(0.0);
             }

@@ -6,7 +6,7 @@ use crate::axes::PerAxis;
 use crate::config::Material;
 use crate::fem::{AssemblyPattern, DofMap, FemError, Mesh, assemble_vector};
 use crate::linalg::dense::symmetrise;
-use crate::linalg::{Cholesky, CsrMatrix, ParityPart, Reflection};
+use crate::linalg::{Cholesky, CsrMatrix, ParityPart, Reflection, join};
 use nalgebra::{DMatrix, DVector};
 
 /// Matrices of one body on its free degrees of freedom, per metre of width.
@@ -44,7 +44,7 @@ impl BodySystem {
     /// Integrates all matrices of a body whose material streams as `stream`, without those of its [ends](super::ends).
     pub fn assemble(mesh: &Mesh, material: &Material, stream: Stream) -> Result<Self, FemError> {
         let dofs = DofMap::new(mesh);
-        let pattern = AssemblyPattern::new(mesh, &dofs);
+        let pattern = AssemblyPattern::new(mesh, &dofs)?;
         let (lame, density) = (Lame::from(material), material.density);
         let mass = |p: &_| elasticity::mass(p, density);
         let load = |field: fn([f64; 2]) -> [f64; 2]| assemble_vector(mesh, &dofs, mass, field);
@@ -52,30 +52,41 @@ impl BodySystem {
             Stream::Rotation => load(field),
             Stream::Translation => Ok(DVector::zeros(dofs.len())),
         };
-        let rigid = PerAxis {
-            travel: load(|_| [1.0, 0.0])?,
-            height: load(|_| [0.0, 1.0])?,
-            rotation: turning(|[x, y]| [y, -x])?,
-            lateral: DVector::zeros(dofs.len()),
+        let loads = || -> Result<_, FemError> {
+            let rigid = PerAxis {
+                travel: load(|_| [1.0, 0.0])?,
+                height: load(|_| [0.0, 1.0])?,
+                rotation: turning(|[x, y]| [y, -x])?,
+                lateral: DVector::zeros(dofs.len()),
+            };
+            Ok((DMatrix::from_columns(&rigid.values()), turning(|x| x)?))
         };
-        let circles = match stream {
+        let circles = || match stream {
             Stream::Rotation => Some([
-                pattern.assemble(|p| Stream::squared_diameters(p, density))?,
-                pattern.assemble(|p| Stream::circumferential_mass(p, density))?,
+                pattern.assemble(|p| Stream::squared_diameters(p, density)),
+                pattern.assemble(|p| Stream::circumferential_mass(p, density)),
             ]),
             Stream::Translation => None,
         };
+        let of_stream = || {
+            let gyroscopic = pattern.assemble(|p| stream.gyroscopic(p, density));
+            let transport = pattern.assemble(|p| stream.transport(p, density));
+            (gyroscopic, transport, pattern.assemble(|p| stream.ale_inertia(p, density)))
+        };
+        let still = || (pattern.assemble(|p| elasticity::stiffness(p, lame)), pattern.assemble(mass), circles());
+        let ((stiffness, mass, circles), (streaming, loads)) = join(still, || (of_stream(), loads()));
+        let ((gyroscopic, transport, ale_inertia), (rigid, centrifugal)) = (streaming, loads?);
         let unknowns = |&node: &usize| [dofs.unknown(node, 0), dofs.unknown(node, 1)];
         Ok(Self {
-            stiffness: pattern.assemble(|p| elasticity::stiffness(p, lame))?,
-            mass: pattern.assemble(mass)?,
+            stiffness,
+            mass,
             damping: None,
-            gyroscopic: pattern.assemble(|p| stream.gyroscopic(p, density))?,
-            transport: pattern.assemble(|p| stream.transport(p, density))?,
+            gyroscopic,
+            transport,
             circles,
-            ale_inertia: pattern.assemble(|p| stream.ale_inertia(p, density))?,
-            rigid: DMatrix::from_columns(&rigid.values()),
-            centrifugal: turning(|x| x)?,
+            ale_inertia,
+            rigid,
+            centrifugal,
             surface: mesh.surface.iter().flat_map(unknowns).flatten().collect(),
             reflection: reflection(mesh, &dofs),
         })

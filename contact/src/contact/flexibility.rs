@@ -7,8 +7,8 @@
 //! Derivation: `docs/theory/lines.md`, section 5.
 
 use super::kernel::Logarithm;
-use super::projection::MomentProjection;
 pub use super::projection::{Between, ByMoments, ByPowers};
+use super::projection::{MomentProjection, Symmetry};
 use crate::linalg::POINTS;
 use crate::patch::tiles::{Tile, TileInfluence};
 use std::f64::consts::{LN_2, PI};
@@ -115,15 +115,17 @@ impl PatchFlexibility {
     /// That of half-spaces under lines on `tiles`; with `mirrored` those beside the middle stand for a symmetric pair.
     pub fn new(tiles: &[Tile], mirrored: bool, material: HalfSpace) -> Self {
         let beside = |tile: &Tile| mirrored && tile.edges[0] + tile.edges[1] > LEAST_OFFSET * tile.width();
-        let [mut pairs] = tables(tiles, material, &beside, [Tile::displaced_by]);
+        let nu = material.poissons_ratio;
+        let [mut pairs] = tables(tiles, material, &beside, [Symmetry::Even], |at, of, x| [at.displaced_by(of, x, nu)]);
         let left = leave(&mut pairs, tiles, 2.0 * (1.0 - material.poissons_ratio) * material.factor());
         Self { lines: tiles.len(), pairs, left, lateral: None }
     }
 
     /// That of [`Self::new`] with forces and displacements across, of lines that are not mirrored.
     pub fn sideways(tiles: &[Tile], material: HalfSpace) -> Self {
-        let kernels = [Tile::displaced_by, Tile::displaced_across_by, Tile::displaced_askew_by];
-        let [mut pairs, mut across, askew] = tables(tiles, material, &|_| false, kernels);
+        let symmetries = [Symmetry::Even, Symmetry::Even, Symmetry::Odd];
+        let every_way = |at: Tile, of: Tile, x: f64| at.displaced_every_way(of, x, material.poissons_ratio);
+        let [mut pairs, mut across, askew] = tables(tiles, material, &|_| false, symmetries, every_way);
         let left = leave(&mut pairs, tiles, 2.0 * (1.0 - material.poissons_ratio) * material.factor());
         let lateral = LateralTables { left: leave(&mut across, tiles, 2.0 * material.factor()), across, askew };
         Self { lines: tiles.len(), pairs, left, lateral: Some(lateral) }
@@ -293,23 +295,27 @@ impl InPatch<'_> {
     }
 }
 
-/// Displacement of a tile by a force on another one, at a distance \[m], with Poisson's ratio \[1].
-type TileKernel = fn(Tile, Tile, f64, f64) -> TileInfluence;
-
-/// Effects of unit forces on `tiles` on each other by kernels; those `beside` the middle stand for a symmetric pair.
+/// Effects of unit forces on `tiles` on each other by kernels, displacements of one tile by a force on another one at a
+/// distance \[m], with their symmetries in it; those `beside` the middle stand for a symmetric pair.
 fn tables<const K: usize>(
     tiles: &[Tile],
     material: HalfSpace,
     beside: &impl Fn(&Tile) -> bool,
-    kernels: [TileKernel; K],
+    symmetries: [Symmetry; K],
+    kernels: impl Fn(Tile, Tile, f64) -> [TileInfluence; K],
 ) -> [Vec<Between>; K] {
     let (projection, count) = (MomentProjection::new(), tiles.len());
-    let mut tables = kernels.map(|_| vec![Between::default(); count * count]);
+    let mut tables = symmetries.map(|_| vec![Between::default(); count * count]);
     for (pair, (at, of)) in tiles.iter().flat_map(|at| tiles.iter().map(move |of| (at, of))).enumerate() {
-        for image in [Some(*of), beside(of).then(|| of.mirrored())].into_iter().flatten() {
-            let at_distance = |x: f64| kernels.map(|kernel| kernel(*at, image, x, material.poissons_ratio));
-            projection.add([at, of], material.factor(), at_distance, tables.each_mut().map(|table| &mut table[pair]));
-        }
+        let image = beside(of).then(|| of.mirrored());
+        let at_distance = |x: f64| {
+            let mut influences = kernels(*at, *of, x);
+            let others = image.map(|image| kernels(*at, image, x));
+            others.iter().flatten().zip(&mut influences).for_each(|(other, influence)| influence.add(other));
+            influences
+        };
+        let sums = tables.each_mut().map(|table| &mut table[pair]);
+        projection.add([at, of], material.factor(), (symmetries, at_distance), sums);
     }
     let width = |tile: &Tile| if beside(tile) { 2.0 * tile.width() } else { tile.width() };
     for (i, j) in (0..count).flat_map(|i| (i..count).map(move |j| (i, j))) {

@@ -56,6 +56,15 @@ pub struct MomentProjection {
     bases: [[ByPowers; POINTS]; 2],
 }
 
+/// Displacement where the distance changes its sign.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Symmetry {
+    /// It stays.
+    Even,
+    /// It changes its sign, too.
+    Odd,
+}
+
 /// Place on a line, and the weight there times the change of t with the angle `asin t`.
 #[derive(Clone, Copy)]
 struct WeightedPlace {
@@ -65,7 +74,8 @@ struct WeightedPlace {
 
 impl WeightedPlace {
     fn at(angle: f64) -> Self {
-        Self { t: libm::sin(angle), weight: libm::pow(libm::cos(angle).max(0.0), 2.0 * EXPONENT + 1.0) }
+        let (t, cosine) = libm::sincos(angle);
+        Self { t, weight: libm::pow(cosine.max(0.0), 2.0 * EXPONENT + 1.0) }
     }
 }
 
@@ -83,13 +93,16 @@ impl MomentProjection {
         Self { displaced, forced, bases }
     }
 
-    /// Adds the projections of `factor` times kernels between two lines. What a line's own kernel is at no distance, in which
-    /// the unit of length is, is projected to round-off.
+    /// Adds the projections of `factor` times kernels of given symmetries between two lines. What a line's own kernel is at
+    /// no distance, in which the unit of length is, is projected to round-off.
+    ///
+    /// Places on one half of the displaced line say what those on the other half do: forces there act as their mirror
+    /// images.
     pub fn add<const K: usize>(
         &self,
         [at, of]: [&Tile; 2],
         factor: f64,
-        kernels: impl Fn(f64) -> [TileInfluence; K],
+        (symmetries, kernels): ([Symmetry; K], impl Fn(f64) -> [TileInfluence; K]),
         mut sums: [&mut Between; K],
     ) {
         let apart = if at == of { kernels(0.0) } else { [TileInfluence::default(); K] };
@@ -97,9 +110,10 @@ impl MomentProjection {
             sum.displacement[0][0] += factor * apart.displacement;
             sum.growth[0][0] += factor * apart.growth;
         }
-        for line in &self.displaced {
+        for line in self.displaced.iter().filter(|line| line.ordinate > 0.0) {
             let WeightedPlace { t, weight } = WeightedPlace::at(FRAC_PI_2 * line.ordinate);
-            let (x, weight, duals) = (at.half_length * t, FRAC_PI_2 * line.weight * weight, dual(&self.bases[0], t));
+            let (x, weight) = (at.half_length * t, 2.0 * FRAC_PI_2 * line.weight * weight);
+            let duals = dual(&self.bases[0], t).map(|dual| weight * dual);
             let mut rows = [[[0.0; 3]; POINTS]; K];
             for (WeightedPlace { t, weight }, part) in from(&self.forced, (x / of.half_length).clamp(-1.0, 1.0)) {
                 let duals = dual(&self.bases[1], t).map(|dual| factor * part * weight * dual);
@@ -112,12 +126,15 @@ impl MomentProjection {
                     }
                 }
             }
-            for (sum, rows) in sums.iter_mut().zip(&rows) {
+            for (sum, (rows, symmetry)) in sums.iter_mut().zip(rows.iter().zip(symmetries)) {
                 for (n, row) in rows.iter().enumerate() {
-                    for (k, weight) in duals.iter().map(|dual| weight * dual).enumerate() {
-                        sum.displacement[n][k] += weight * row[0];
-                        sum.strain[n][k] += weight * row[1];
-                        sum.growth[n][k] += weight * row[2];
+                    for (k, dual) in duals.iter().enumerate() {
+                        if (n + k).is_multiple_of(2) == (symmetry == Symmetry::Even) {
+                            sum.displacement[n][k] += dual * row[0];
+                            sum.growth[n][k] += dual * row[2];
+                        } else {
+                            sum.strain[n][k] += dual * row[1];
+                        }
                     }
                 }
             }
@@ -125,12 +142,12 @@ impl MomentProjection {
     }
 }
 
-/// Places of a rule on both sides of a place, and the parts of the angle that belong to them.
+/// Places of a rule on both sides of a place, or on one side of an end, and the parts of the angle that belong to them.
 fn from(rule: &[GaussLine], t: f64) -> impl Iterator<Item = (WeightedPlace, f64)> {
     let middle = libm::asin(t);
-    [-FRAC_PI_2, FRAC_PI_2].into_iter().flat_map(move |end| {
+    [-FRAC_PI_2, FRAC_PI_2].into_iter().map(move |end| end - middle).filter(|way| *way != 0.0).flat_map(move |way| {
         rule.iter().map(move |line| {
-            let (way, u) = (end - middle, 0.5 * (1.0 + line.ordinate));
+            let u = 0.5 * (1.0 + line.ordinate);
             let part = 3.0 * line.weight * way.abs() * u * (1.0 - u);
             (WeightedPlace::at(middle + way * u * u * (3.0 - 2.0 * u)), part)
         })
@@ -187,13 +204,16 @@ mod tests {
     #[test]
     fn twice_the_places_give_the_same_polynomials() {
         let tile = |low: f64, high: f64, half_length: f64| Tile { edges: [low, high], half_length };
-        let kernels = [Tile::displaced_by, Tile::displaced_across_by, Tile::displaced_askew_by];
         let (at, beside) = (tile(-0.3, 0.3, 2.0), [tile(0.3, 0.7, 1.8), tile(0.7, 1.0, 0.6)]);
-        for (of, kernel) in [at].into_iter().chain(beside).flat_map(|of| kernels.map(|kernel| (of, kernel))) {
+        let ways = [Symmetry::Even, Symmetry::Even, Symmetry::Odd].into_iter().enumerate();
+        for (of, (way, symmetry)) in
+            [at].into_iter().chain(beside).flat_map(|of| ways.clone().map(move |way| (of, way)))
+        {
             let [found, fine] = [1, 2].map(|times| {
                 let mut sum = Between::default();
                 let projection = MomentProjection::on([times * DISPLACED, times * FORCED]);
-                projection.add([&at, &of], 1.0, |x| [kernel(at, of, x, 0.3)], [&mut sum]);
+                let kernel = |x: f64| [at.displaced_every_way(of, x, 0.3)[way]];
+                projection.add([&at, &of], 1.0, ([symmetry], kernel), [&mut sum]);
                 [sum.displacement, sum.strain, sum.growth]
             });
             for ((found, fine), most) in found.iter().zip(&fine).zip([5e-4, 6e-3, 2e-2]) {

@@ -37,6 +37,34 @@ pub struct TileInfluence {
     pub growth: f64,
 }
 
+impl TileInfluence {
+    /// Adds that of another force.
+    pub fn add(&mut self, other: &Self) {
+        self.displacement += other.displacement;
+        self.strain += other.strain;
+        self.growth += other.growth;
+    }
+}
+
+/// An edge of a displaced tile and one of the tile of the force, at a distance x.
+struct Corner {
+    /// Sign in the second difference.
+    sign: f64,
+    /// Place of the displaced edge \[m].
+    here: f64,
+    /// Its lateral distance s from the other one, and its distance r \[m].
+    s: f64,
+    r: f64,
+    /// `x/r`, `s/r` and `|s|/(|s| + r)`.
+    along: f64,
+    aside: f64,
+    flat: f64,
+    /// `ln(|s| + r)`, which is `asinh(|s|/|x|)` and the logarithm of |x|.
+    steep: f64,
+    /// That logarithm; 0 in a tile's own displacement.
+    logarithm: f64,
+}
+
 /// Smallest distance whose logarithm is taken \[m].
 const LEAST: f64 = 1e-12;
 
@@ -55,59 +83,72 @@ impl Tile {
     /// Its displacement along by a force along on the tile `of` at the distance x \[m] on half-spaces with Poisson's
     /// ratio ν \[1].
     pub fn displaced_by(self, of: Self, x: f64, nu: f64) -> TileInfluence {
-        self.displaced(of, x, [1.0 - nu, 1.0 - 2.0 * nu, nu])
+        self.displaced(&self.corners(of, x), [1.0 - nu, 1.0 - 2.0 * nu, nu])
     }
 
-    /// Its displacement across by a force across, as [`Self::displaced_by`].
-    pub fn displaced_across_by(self, of: Self, x: f64, nu: f64) -> TileInfluence {
-        self.displaced(of, x, [1.0, 1.0 + nu, -nu])
+    /// Its displacements along by a force along, across by one across, and across by one along, which is that along by
+    /// one across, as [`Self::displaced_by`]. None of the last by its own force.
+    pub fn displaced_every_way(self, of: Self, x: f64, nu: f64) -> [TileInfluence; 3] {
+        let corners = self.corners(of, x);
+        let [along, across] =
+            [[1.0 - nu, 1.0 - 2.0 * nu, nu], [1.0, 1.0 + nu, -nu]].map(|by| self.displaced(&corners, by));
+        let askew = if self == of { TileInfluence::default() } else { self.displaced_askew(&corners, x, nu) };
+        [along, across, askew]
     }
 
-    /// Its displacement across by a force along, and along by a force across, as [`Self::displaced_by`]; none by its own.
-    pub fn displaced_askew_by(self, of: Self, x: f64, nu: f64) -> TileInfluence {
+    /// Its edges beside those of the tile `of` at the distance x.
+    fn corners(self, of: Self, x: f64) -> [Corner; 4] {
+        let logarithm = if self == of { 0.0 } else { libm::log(x.abs().max(LEAST)) };
+        let corner = |i: usize, j: usize| {
+            let (here, s) = (self.edges[i], self.edges[i] - of.edges[j]);
+            let (r, size) = ((x * x + s * s).sqrt(), s.abs());
+            let apart = r > 0.0;
+            Corner {
+                sign: if i == j { -1.0 } else { 1.0 },
+                here,
+                s,
+                r,
+                along: if apart { x / r } else { 0.0 },
+                aside: if apart { s / r } else { 0.0 },
+                flat: if apart { size / (size + r) } else { 0.0 },
+                steep: if size > 0.0 { libm::log(size + r) } else { 0.0 },
+                logarithm,
+            }
+        };
+        [corner(0, 0), corner(0, 1), corner(1, 0), corner(1, 1)]
+    }
+
+    /// Displacement whose second antiderivative is `−ν x asinh(s/|x|)`.
+    fn displaced_askew(self, corners: &[Corner; 4], x: f64, nu: f64) -> TileInfluence {
         let mut sum = TileInfluence::default();
-        if self == of {
-            return sum;
-        }
-        let logarithm = libm::log(x.abs().max(LEAST));
-        for (here, at) in self.edges.into_iter().zip([-1.0, 1.0]) {
-            for (there, sign) in of.edges.into_iter().zip([at, -at]) {
-                let s: f64 = here - there;
-                let r = libm::hypot(x, s);
-                sum.growth -= sign * here * nu * if r > 0.0 { x / r } else { 0.0 };
-                if s == 0.0 {
-                    continue;
-                }
-                let steep = (libm::log(s.abs() + r) - logarithm) * s.signum();
+        for &Corner { sign, here, s, along, aside, steep, logarithm, .. } in corners {
+            sum.growth -= sign * here * nu * along;
+            if s != 0.0 {
+                let steep = (steep - logarithm) * s.signum();
                 sum.displacement -= sign * nu * x * steep;
-                sum.strain -= sign * nu * (steep - s / r);
+                sum.strain -= sign * nu * (steep - aside);
             }
         }
-        let width = self.width();
-        let [displacement, strain] = [sum.displacement, sum.strain].map(|sum| sum / width);
-        TileInfluence { displacement, strain, growth: sum.growth / width - displacement }
+        self.mean(sum)
     }
 
-    /// Displacement whose second antiderivative is `c s asinh(s/|x|) − d r`, and `e = c − d`.
-    fn displaced(self, of: Self, x: f64, [c, d, e]: [f64; 3]) -> TileInfluence {
-        let (own, mut sum) = (self == of, TileInfluence::default());
-        let logarithm = libm::log(x.abs().max(LEAST));
-        for (here, at) in self.edges.into_iter().zip([-1.0, 1.0]) {
-            for (there, sign) in of.edges.into_iter().zip([at, -at]) {
-                let s: f64 = here - there;
-                let (r, size) = (libm::hypot(x, s), s.abs());
-                let along = if r > 0.0 { x / r } else { 0.0 };
-                // `asinh(s/|x|)` without the logarithm of x, which cancels but in a tile's own displacement.
-                let steep = if size > 0.0 { libm::log(size + r) } else { 0.0 };
-                sum.displacement += sign * (c * size * steep - d * r);
-                let flat = if size + r > 0.0 { size / (size + r) } else { 0.0 };
-                sum.strain += sign * along * (c * flat - d);
-                if size > 0.0 {
-                    let full = steep - if own { 0.0 } else { logarithm };
-                    sum.growth += sign * here * (c * full * s.signum() + e * s / r);
-                }
+    /// Displacement whose second antiderivative is `c s asinh(s/|x|) − d r`, and `e = c − d`. The logarithm of x cancels in
+    /// all but a tile's own displacement.
+    fn displaced(self, corners: &[Corner; 4], [c, d, e]: [f64; 3]) -> TileInfluence {
+        let mut sum = TileInfluence::default();
+        for &Corner { sign, here, s, r, along, aside, flat, steep, logarithm } in corners {
+            let size = s.abs();
+            sum.displacement += sign * (c * size * steep - d * r);
+            sum.strain += sign * along * (c * flat - d);
+            if size > 0.0 {
+                sum.growth += sign * here * (c * (steep - logarithm) * s.signum() + e * aside);
             }
         }
+        self.mean(sum)
+    }
+
+    /// Mean over the tile, given the sums over its edges.
+    fn mean(self, sum: TileInfluence) -> TileInfluence {
         let width = self.width();
         let [displacement, strain] = [sum.displacement, sum.strain].map(|sum| sum / width);
         TileInfluence { displacement, strain, growth: sum.growth / width - displacement }
@@ -165,8 +206,7 @@ mod tests {
                 let own = if at == of { -2.0 * x.abs().ln() } else { 0.0 };
                 let across = integral_of(at, of, |s| 1.0 / x.hypot(s) - NU * x * x / x.hypot(s).powi(3));
                 let askew = integral_of(at, of, |s| NU * x * s / x.hypot(s).powi(3));
-                let found =
-                    [at.displaced_across_by(of, x, NU), at.displaced_askew_by(of, x, NU)].map(|it| it.displacement);
+                let [_, found @ ..] = at.displaced_every_way(of, x, NU).map(|it| it.displacement);
                 assert!(((found[0] + own) / across - 1.0).abs() < 2e-4, "{at:?} {of:?} {x}: {found:?} {across}");
                 assert!((found[1] - askew).abs() < 1e-4 * across, "{at:?} {of:?} {x}: {found:?} {askew}");
             }
@@ -177,15 +217,16 @@ mod tests {
     fn strains_and_growth_across_and_askew_are_those_of_differences() {
         let (step, of) = (1e-5, tile(-0.5, 0.7));
         for (at, x) in [(tile(0.7, 1.0), 0.2), (tile(1.2, 1.4), -0.6_f64)] {
-            for kernel in [Tile::displaced_across_by, Tile::displaced_askew_by] {
-                let found = kernel(at, of, x, NU);
-                let by_place = [x + step, x - step].map(|x| kernel(at, of, x, NU).displacement);
+            for way in [1, 2] {
+                let displaced = |x: f64| at.displaced_every_way(of, x, NU)[way];
+                let (found, by_place) = (displaced(x), [x + step, x - step].map(|x| displaced(x).displacement));
                 assert!((found.strain - (by_place[0] - by_place[1]) / (2.0 * step)).abs() < 1e-8);
             }
             // Sizes change the logarithms of what is left out of one another's, which cancel askew.
             let sized = |scale: f64| Tile { edges: at.edges.map(|z| z * scale), ..at };
-            let by_size = [1.0 + step, 1.0 - step].map(|scale| sized(scale).displaced_askew_by(of, x, NU).displacement);
-            let growth = at.displaced_askew_by(of, x, NU).growth;
+            let by_size =
+                [1.0 + step, 1.0 - step].map(|scale| sized(scale).displaced_every_way(of, x, NU)[2].displacement);
+            let growth = at.displaced_every_way(of, x, NU)[2].growth;
             assert!((growth - (by_size[0] - by_size[1]) / (2.0 * step)).abs() < 1e-6);
         }
     }
@@ -198,8 +239,9 @@ mod tests {
             let [there, back] = [a.displaced_by(b, x, NU), b.displaced_by(a, -x, NU)];
             assert!((a.width() * there.displacement - b.width() * back.displacement).abs() < 1e-14);
             assert!((a.width() * there.strain + b.width() * back.strain).abs() < 1e-14);
-            for kernel in [Tile::displaced_across_by, Tile::displaced_askew_by] {
-                let [there, back] = [kernel(a, b, x, NU), kernel(b, a, -x, NU)];
+            for way in [1, 2] {
+                let [there, back] =
+                    [a.displaced_every_way(b, x, NU), b.displaced_every_way(a, -x, NU)].map(|ways| ways[way]);
                 assert!((a.width() * there.displacement - b.width() * back.displacement).abs() < 1e-14);
                 assert!(x == 0.0 || (a.width() * there.strain + b.width() * back.strain).abs() < 1e-14);
             }

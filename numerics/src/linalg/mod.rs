@@ -18,6 +18,7 @@ mod lagrange;
 pub mod modes;
 pub mod parity;
 pub mod pencil;
+mod side_by_side;
 pub mod sparse;
 pub mod vectorised;
 
@@ -28,5 +29,6 @@ pub use krylov::Oscillator;
 pub use lagrange::{Lagrange, POINTS, Polynomial};
 pub use modes::{VibrationModes, lowest_modes, lowest_modes_of_parts};
 pub use parity::{Parity, ParityPart, Reflection};
+pub use side_by_side::{join, side_by_side};
 pub use sparse::CsrMatrix;
 pub use vectorised::{Update, multiply_transposed};

@@ -10,6 +10,7 @@
 
 use super::dense::symmetrise;
 use super::krylov::{Krylov, Oscillator, RitzPairs, dense_eigen, noise};
+use super::side_by_side::{join, side_by_side};
 use super::{Cholesky, CsrMatrix, LinalgError};
 use nalgebra::{DMatrix, DVector};
 
@@ -38,7 +39,8 @@ pub fn lowest_modes(
     modes.into_iter().next().ok_or(LinalgError::TooManyModes { wanted: count, size: 0 })
 }
 
-/// Those of the `count` lowest modes of several oscillators together that belong to each.
+/// Those of the `count` lowest modes of several oscillators together that belong to each. Each has a thread of its own;
+/// `progress` receives the share that the first one has done.
 pub fn lowest_modes_of_parts(
     parts: &[Oscillator<'_>],
     count: usize,
@@ -53,46 +55,47 @@ pub fn lowest_modes_of_parts(
             return Err(LinalgError::SizeMismatch { left: factor.size(), right: mass.rows() });
         }
     }
-    let mut spaces: Vec<Krylov> = parts.iter().map(|part| Krylov::new(*part)).collect();
-    let (pairs, counts) = lowest_ritz_pairs(&mut spaces, parts, count, progress)?;
-    let modes = (parts.iter().zip(&spaces).zip(pairs.iter().zip(counts)))
-        .map(|((part, space), (pairs, count))| polished(part, space, pairs, count));
-    let modes = modes.collect();
+    let (spaces, counts) = lowest_ritz_pairs(parts, count, progress)?;
+    let modes = side_by_side(parts.len(), |k| polished(&parts[k], &spaces[k].0, &spaces[k].1, counts[k]));
     progress(1.0);
-    modes
+    modes.into_iter().collect()
 }
 
-/// Ritz pairs of every part, and how many of each belong to the `count` lowest of all.
-fn lowest_ritz_pairs(
-    spaces: &mut [Krylov<'_>],
-    parts: &[Oscillator<'_>],
+/// Space of a part, and the Ritz pairs that were asked for.
+type Searched<'a> = (Krylov<'a>, RitzPairs);
+
+/// Spaces and Ritz pairs of every part, and how many of each belong to the `count` lowest of all.
+fn lowest_ritz_pairs<'a>(
+    parts: &[Oscillator<'a>],
     count: usize,
     progress: &mut dyn FnMut(f64),
-) -> Result<(Vec<RitzPairs>, Vec<usize>), LinalgError> {
+) -> Result<(Vec<Searched<'a>>, Vec<usize>), LinalgError> {
     // Of several parts, one may have more than its share; its last known mode must not be among the lowest.
     let several = usize::from(parts.len() > 1);
     let mut wanted: Vec<usize> =
         parts.iter().map(|part| (count.div_ceil(parts.len()) + 2 * several).min(part.factor.size())).collect();
-    let expected = 3.2 * wanted.iter().sum::<usize>() as f64 + 20.0;
-    let mut vectors = vec![0; parts.len()];
-    let mut converged = |k: usize, wanted: usize| {
-        spaces[k].converge(wanted, &mut |size| {
-            vectors[k] = size;
-            progress(0.9 * (vectors.iter().sum::<usize>() as f64 / expected).min(1.0));
-        })
+    let converged = |k: usize, report: &mut dyn FnMut(usize)| {
+        let mut space = Krylov::new(parts[k]);
+        space.converge(wanted[k], report).map(|pairs| (space, pairs))
     };
-    let pairs: Result<Vec<RitzPairs>, LinalgError> = (0..parts.len()).map(|k| converged(k, wanted[k])).collect();
-    let mut pairs = pairs?;
+    let expected = 3.2 * wanted.first().map_or(0.0, |wanted| *wanted as f64) + 20.0;
+    let mut report = |size| progress(0.9 * (size as f64 / expected).min(1.0));
+    let others = || side_by_side(parts.len().saturating_sub(1), |k| converged(k + 1, &mut |_| {}));
+    let (first, others) = join(|| (!parts.is_empty()).then(|| converged(0, &mut report)), others);
+    let mut found = first.into_iter().chain(others).collect::<Result<Vec<_>, _>>()?;
     loop {
-        let all = pairs.iter().enumerate().flat_map(|(k, pairs)| pairs.values.iter().map(move |value| (*value, k)));
-        let mut lowest: Vec<(f64, usize)> = all.collect();
+        let values = |(k, (_, pairs)): (usize, &(_, RitzPairs))| -> Vec<(f64, usize)> {
+            pairs.values.iter().map(|value| (*value, k)).collect()
+        };
+        let mut lowest: Vec<(f64, usize)> = found.iter().enumerate().flat_map(values).collect();
         lowest.sort_by(|a, b| b.0.total_cmp(&a.0));
         lowest.truncate(count);
         let counts: Vec<usize> = (0..parts.len()).map(|k| lowest.iter().filter(|pair| pair.1 == k).count()).collect();
         let short = |k: &usize| several > 0 && counts[*k] == wanted[*k] && wanted[*k] < parts[*k].factor.size();
-        let Some(k) = (0..parts.len()).find(short) else { return Ok((pairs, counts)) };
+        let Some(k) = (0..parts.len()).find(short) else { return Ok((found, counts)) };
         wanted[k] = (wanted[k] + 2).min(parts[k].factor.size());
-        pairs[k] = converged(k, wanted[k])?;
+        let (space, pairs) = &mut found[k];
+        *pairs = space.converge(wanted[k], &mut |_| {})?;
     }
 }
 

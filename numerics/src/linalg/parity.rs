@@ -70,14 +70,17 @@ impl ParityPart {
 
     /// `Qᵀ A P` with the basis `Q` of this part and `P` of another one, for an `A` that maps the other on this.
     pub fn fold(&self, matrix: &CsrMatrix, other: &Self) -> CsrMatrix {
-        CsrMatrix::from_rows(self.size(), other.size(), |row, entries| {
-            let unknown = self.unknowns[row];
-            // Both unknowns of a pair contribute the same.
-            let scale = self.places[unknown].1.recip();
-            entries.extend(matrix.row(unknown).filter_map(|(column, value)| {
-                other.place(column).map(|(place, weight)| (place, scale * weight * value))
-            }));
-        })
+        CsrMatrix::from_rows(
+            [self.size(), other.size(), matrix.stored() * self.size() / matrix.rows().max(1)],
+            |row, entries| {
+                let unknown = self.unknowns[row];
+                // Both unknowns of a pair contribute the same.
+                let scale = self.places[unknown].1.recip();
+                entries.extend(matrix.row(unknown).filter_map(|(column, value)| {
+                    other.place(column).map(|(place, weight)| (place, scale * weight * value))
+                }));
+            },
+        )
     }
 
     /// `Qᵀ x`.

@@ -30,77 +30,93 @@ pub struct WideModes {
     pub shapes: Vec<Wide>,
 }
 
-/// All eigenpairs of `K φ = λ M φ`: `mass` is positive definite, both are symmetric, row-major and of `size` rows.
+/// All eigenpairs of `K φ = λ M φ`: `mass` is positive definite, both are symmetric, row-major and of `size` rows. A mass
+/// with a narrow band takes less time.
 ///
 /// With the Cholesky factor `M = L Lᵀ` they are those of `L⁻¹ K L⁻ᵀ`. Fails for an indefinite mass, and if the
 /// iteration does not converge.
 pub fn wide_modes(mass: &[Wide], stiffness: &[Wide], size: usize) -> Result<WideModes, LinalgError> {
-    let factor = cholesky(mass, size)?;
+    let factor = Factor::new(mass, size)?;
     let mut matrix = stiffness.to_vec();
     // L⁻¹ K, then the same on the transposed result.
     for _ in 0..2 {
-        solve_lower(&factor, &mut matrix, size);
+        factor.solve_lower(&mut matrix);
         for i in 0..size {
             for j in 0..i {
                 matrix.swap(i * size + j, j * size + i);
             }
         }
     }
-    let mut shapes = jacobi(&mut matrix, size).ok_or(LinalgError::Eigen { size })?;
-    solve_upper(&factor, &mut shapes, size);
+    let (mut values, mut beside, mut vectors) = tridiagonal(&matrix, size);
+    diagonalise(&mut values, &mut beside, &mut vectors).ok_or(LinalgError::Eigen { size })?;
+    let mut shapes: Vec<Wide> = (0..size * size).map(|at| vectors.get(at % size, at / size)).collect();
+    factor.solve_upper(&mut shapes);
     let mut order: Vec<usize> = (0..size).collect();
-    order.sort_by(|&i, &j| matrix[i * size + i].0.total_cmp(&matrix[j * size + j].0));
+    order.sort_by(|&i, &j| values[i].0.total_cmp(&values[j].0));
     let sorted = |row: &[Wide]| -> Vec<Wide> { order.iter().map(|&column| row[column]).collect() };
-    Ok(WideModes {
-        values: order.iter().map(|&i| matrix[i * size + i]).collect(),
-        shapes: shapes.chunks_exact(size).flat_map(sorted).collect(),
-    })
+    Ok(WideModes { values: sorted(&values), shapes: shapes.chunks_exact(size).flat_map(sorted).collect() })
 }
 
-/// `L` of `M = L Lᵀ`.
-fn cholesky(mass: &[Wide], size: usize) -> Result<Vec<Wide>, LinalgError> {
-    let mut factor = vec![Wide::ZERO; size * size];
-    for i in 0..size {
-        for j in 0..=i {
-            let mut sum = mass[i * size + j];
-            for l in 0..j {
-                sum -= factor[i * size + l] * factor[j * size + l];
-            }
-            if i != j {
-                factor[i * size + j] = sum / factor[j * size + j];
-            } else if sum.0 > 0.0 {
-                factor[i * size + i] = sum.sqrt();
-            } else {
-                let reason = format!("pivot {i} is {:e}", sum.0);
-                return Err(LinalgError::NotPositiveDefinite { size, reason });
-            }
-        }
-    }
-    Ok(factor)
+/// `L` of `M = L Lᵀ`, row-major.
+struct Factor {
+    size: usize,
+    /// First column of every row that is not zero, in `M` and in `L`.
+    first: Vec<usize>,
+    entries: Vec<Wide>,
+    /// Reciprocals of the diagonal.
+    inverse: Vec<Wide>,
 }
 
-/// `X ← L⁻¹ X`.
-fn solve_lower(factor: &[Wide], matrix: &mut [Wide], size: usize) {
-    for column in 0..size {
+impl Factor {
+    fn new(mass: &[Wide], size: usize) -> Result<Self, LinalgError> {
+        let begin = |(i, row): (usize, &[Wide])| row.iter().position(|entry| entry.0 != 0.0).unwrap_or(i).min(i);
+        let first: Vec<usize> = mass.chunks_exact(size).enumerate().map(begin).collect();
+        let mut entries = vec![Wide::ZERO; size * size];
         for i in 0..size {
-            let mut sum = matrix[i * size + column];
-            for l in 0..i {
-                sum -= factor[i * size + l] * matrix[l * size + column];
+            for j in first[i]..=i {
+                let mut sum = mass[i * size + j];
+                for l in first[i].max(first[j])..j {
+                    sum -= entries[i * size + l] * entries[j * size + l];
+                }
+                if i != j {
+                    entries[i * size + j] = sum / entries[j * size + j];
+                } else if sum.0 > 0.0 {
+                    entries[i * size + i] = sum.sqrt();
+                } else {
+                    let reason = format!("pivot {i} is {:e}", sum.0);
+                    return Err(LinalgError::NotPositiveDefinite { size, reason });
+                }
             }
-            matrix[i * size + column] = sum / factor[i * size + i];
+        }
+        let inverse = (0..size).map(|i| Wide::ONE / entries[i * (size + 1)]).collect();
+        Ok(Self { size, first, entries, inverse })
+    }
+
+    /// `X ← L⁻¹ X`.
+    fn solve_lower(&self, matrix: &mut [Wide]) {
+        let Self { size, first, entries, inverse } = self;
+        for i in 0..*size {
+            for column in 0..*size {
+                let mut sum = matrix[i * size + column];
+                for l in first[i]..i {
+                    sum -= entries[i * size + l] * matrix[l * size + column];
+                }
+                matrix[i * size + column] = sum * inverse[i];
+            }
         }
     }
-}
 
-/// `X ← L⁻ᵀ X`.
-fn solve_upper(factor: &[Wide], matrix: &mut [Wide], size: usize) {
-    for column in 0..size {
-        for i in (0..size).rev() {
-            let mut sum = matrix[i * size + column];
-            for l in i + 1..size {
-                sum -= factor[l * size + i] * matrix[l * size + column];
+    /// `X ← L⁻ᵀ X`.
+    fn solve_upper(&self, matrix: &mut [Wide]) {
+        let Self { size, first, entries, inverse } = self;
+        for i in (0..*size).rev() {
+            for column in 0..*size {
+                let value = matrix[i * size + column] * inverse[i];
+                matrix[i * size + column] = value;
+                for l in first[i]..i {
+                    matrix[l * size + column] -= entries[i * size + l] * value;
+                }
             }
-            matrix[i * size + column] = sum / factor[i * size + i];
         }
     }
 }
@@ -158,63 +174,96 @@ vectorised! {
     }
 }
 
-/// Cyclic Jacobi iteration (Golub & Van Loan, *Matrix Computations*, 4th ed., 8.5): leaves the eigenvalues on the
-/// diagonal of `matrix` and returns the eigenvectors as columns; `None` without convergence.
-fn jacobi(matrix: &mut [Wide], n: usize) -> Option<Vec<Wide>> {
-    const SWEEPS: usize = 60;
+/// Turns a symmetric matrix by plane rotations until it is tridiagonal (Golub & Van Loan, *Matrix Computations*, 4th ed.,
+/// 5.1 and 8.3): its diagonal, what stands beside it, and the rotation, whose rows are the new directions.
+fn tridiagonal(matrix: &[Wide], n: usize) -> (Vec<Wide>, Vec<Wide>, WideRows) {
     let (mut a, mut vectors) = (WideRows::square(n), WideRows::square(n));
     for i in 0..n {
         vectors.set(i, i, Wide::ONE);
         (0..n).for_each(|j| a.set(i, j, matrix[i * n + j]));
     }
-    // Entries at the round-off of the matrix are zero, whatever the diagonal (eigenvalue zero of an insulated body).
-    let floor = 1e-31 * (0..n).map(|i| a.get(i, i).0).fold(0.0, f64::max);
-    for _ in 0..SWEEPS {
-        let mut largest: f64 = 0.0;
-        for p in 0..n {
-            for q in p + 1..n {
-                let size = a.get(p, q).0.abs();
-                let scale = (a.get(p, p).0.abs() * a.get(q, q).0.abs()).sqrt();
-                if size <= floor.max(1e-28 * scale) {
-                    continue;
-                }
-                largest = largest.max(size / scale.max(floor));
-                let rotation = annihilate(&mut a, p, q);
-                vectors.rotate(p, q, rotation);
+    for k in 0..n {
+        for q in k + 2..n {
+            let (kept, gone) = (a.get(k, k + 1), a.get(k, q));
+            if gone.0 != 0.0 {
+                let length = (kept * kept + gone * gone).sqrt();
+                let rotation = [kept / length, -gone / length];
+                turn(&mut a, k + 1, q, rotation);
+                vectors.rotate(k + 1, q, rotation);
             }
         }
-        if largest.is_nan() {
-            return None;
-        }
-        if largest < 1e-20 {
-            (0..n).for_each(|i| matrix[i * (n + 1)] = a.get(i, i));
-            return Some((0..n * n).map(|at| vectors.get(at % n, at / n)).collect());
-        }
     }
-    None
+    let beside = (1..n).map(|i| a.get(i - 1, i)).chain([Wide::ZERO]).collect();
+    ((0..n).map(|i| a.get(i, i)).collect(), beside, vectors)
 }
 
-/// Turns the rows and columns `p` and `q` of a symmetric matrix until their common entry is zero; `[c, s]` of the
-/// rotation.
-fn annihilate(a: &mut WideRows, p: usize, q: usize) -> [Wide; 2] {
-    let theta = (a.get(q, q) - a.get(p, p)) / (wide(2.0) * a.get(p, q));
-    let root = (theta * theta + Wide::ONE).sqrt();
-    let t = if theta.0 >= 0.0 { Wide::ONE / (theta + root) } else { Wide::ONE / (theta - root) };
-    let c = Wide::ONE / (t * t + Wide::ONE).sqrt();
-    let s = t * c;
-    a.rotate(p, q, [c, s]);
+/// Turns the rows and columns `p` and `q` of a symmetric matrix.
+fn turn(a: &mut WideRows, p: usize, q: usize, rotation: [Wide; 2]) {
+    let [c, s] = rotation;
+    a.rotate(p, q, rotation);
     // Now the columns: those of the other rows are what their rows have become.
     let [pp, pq, qp, qq] = [(p, p), (p, q), (q, p), (q, q)].map(|(i, j)| a.get(i, j));
     a.set(p, p, c * pp - s * pq);
     a.set(q, q, s * qp + c * qq);
-    a.set(p, q, Wide::ZERO);
-    a.set(q, p, Wide::ZERO);
+    let across = s * pp + c * pq;
+    a.set(p, q, across);
+    a.set(q, p, across);
     let rows = a.high.len() / a.stride;
     for l in (0..rows).filter(|&l| l != p && l != q) {
         a.set(l, p, a.get(p, l));
         a.set(l, q, a.get(q, l));
     }
-    [c, s]
+}
+
+/// Iteration with implicit shifts by Wilkinson on a tridiagonal matrix (Golub & Van Loan, 8.3): leaves the eigenvalues on
+/// its diagonal `d`, nothing in `e` beside it, and the eigenvectors in the rows of `vectors`; `None` without convergence.
+fn diagonalise(d: &mut [Wide], e: &mut [Wide], vectors: &mut WideRows) -> Option<()> {
+    const MOST: usize = 60;
+    // Entries at the round-off of the matrix are zero, whatever the diagonal (eigenvalue zero of an insulated body).
+    let floor = 1e-32 * d.iter().fold(0.0, |most: f64, d| most.max(d.0.abs()));
+    for first in 0..d.len() {
+        for round in 0.. {
+            let small = |&i: &usize| e[i].0.abs() <= floor.max(1e-32 * (d[i].0.abs() + d[i + 1].0.abs()));
+            let last = (first..d.len() - 1).find(small).unwrap_or(d.len() - 1);
+            if last == first {
+                break;
+            }
+            if round == MOST || !e[first].0.is_finite() {
+                return None;
+            }
+            chase(d, e, [first, last], vectors);
+        }
+    }
+    Some(())
+}
+
+/// One step of [`diagonalise`] on the rows from the first to the last.
+fn chase(d: &mut [Wide], e: &mut [Wide], [first, last]: [usize; 2], vectors: &mut WideRows) {
+    let half = (d[first + 1] - d[first]) / (wide(2.0) * e[first]);
+    let root = (half * half + Wide::ONE).sqrt();
+    let by = if half.0 >= 0.0 { half + root } else { half - root };
+    let mut g = d[last] - d[first] + e[first] / by;
+    let (mut s, mut c, mut moved) = (Wide::ONE, Wide::ONE, Wide::ZERO);
+    for i in (first..last).rev() {
+        let (f, b) = (s * e[i], c * e[i]);
+        let length = (f * f + g * g).sqrt();
+        e[i + 1] = length;
+        if length.0 == 0.0 {
+            // Falls into two parts here.
+            d[i + 1] -= moved;
+            e[last] = Wide::ZERO;
+            return;
+        }
+        (s, c) = (f / length, g / length);
+        g = d[i + 1] - moved;
+        let turned = (d[i] - g) * s + wide(2.0) * c * b;
+        moved = s * turned;
+        d[i + 1] = g + moved;
+        g = c * turned - b;
+        vectors.rotate(i, i + 1, [c, s]);
+    }
+    d[first] -= moved;
+    (e[first], e[last]) = (g, Wide::ZERO);
 }
 
 #[cfg(test)]
@@ -268,6 +317,34 @@ mod tests {
             }
         }
         assert!(modes.values.windows(2).all(|v| v[0].0 <= v[1].0));
+    }
+
+    /// Diagonal pencils, and ones with many equal eigenvalues, of which the rotations leave parts that do not know of each other.
+    #[test]
+    fn equal_eigenvalues_and_parts_apart_are_found() {
+        let n = 12;
+        let unit = |i: usize, j: usize| wide(f64::from(u8::from(i == j)));
+        let diagonal = matrix(n, |i, j| wide((n - i / 3) as f64) * unit(i, j));
+        let ones = matrix(n, |i, j| Wide::ONE + unit(i, j));
+        for (stiffness, exact) in [
+            (diagonal, vec![9.0, 9.0, 9.0, 10.0, 10.0, 10.0, 11.0, 11.0, 11.0, 12.0, 12.0, 12.0]),
+            (ones, [vec![1.0; n - 1], vec![n as f64 + 1.0]].concat()),
+        ] {
+            let modes = wide_modes(&matrix(n, unit), &stiffness, n).unwrap();
+            let transposed = matrix(n, |i, j| modes.shapes[j * n + i]);
+            let ritz = product(n, &product(n, &transposed, &stiffness), &modes.shapes);
+            for (at, entry) in ritz.iter().enumerate() {
+                let expected = if at % (n + 1) == 0 { exact[at / n] } else { 0.0 };
+                assert!((*entry - wide(expected)).0.abs() < 1e-29, "{at}: {entry:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_stiffness_without_numbers_has_no_modes() {
+        let unit = |i: usize, j: usize| wide(f64::from(u8::from(i == j)));
+        let stiffness = matrix(3, |_, _| wide(f64::NAN));
+        assert!(matches!(wide_modes(&matrix(3, unit), &stiffness, 3), Err(LinalgError::Eigen { size: 3 })));
     }
 
     #[test]

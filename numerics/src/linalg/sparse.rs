@@ -35,14 +35,20 @@ impl CsrMatrix {
             sorted[next[row]] = (column, value);
             next[row] += 1;
         }
-        Ok(Self::from_rows(rows, columns, |i, row| row.extend_from_slice(&sorted[ends[i]..ends[i + 1]])))
+        Ok(Self::from_rows([rows, columns, sorted.len()], |i, row| {
+            row.extend_from_slice(&sorted[ends[i]..ends[i + 1]])
+        }))
     }
 
-    /// A matrix whose rows are given one after the other: `fill` appends the entries of a row to an empty list, in any
+    /// A matrix with numbers of rows and columns and room for entries, whose rows are given one after the other: `fill` appends the entries of a row to an empty list, in any
     /// order; equal columns add up in the order given.
-    pub(super) fn from_rows(rows: usize, columns: usize, mut fill: impl FnMut(usize, &mut Vec<(usize, f64)>)) -> Self {
-        let (mut starts, mut indices, mut values) = (vec![0], Vec::<usize>::new(), Vec::<f64>::new());
-        let mut row = Vec::new();
+    pub(super) fn from_rows(
+        [rows, columns, room]: [usize; 3],
+        mut fill: impl FnMut(usize, &mut Vec<(usize, f64)>),
+    ) -> Self {
+        let (mut starts, mut row) = (Vec::with_capacity(rows + 1), Vec::new());
+        let (mut indices, mut values) = (Vec::<usize>::with_capacity(room), Vec::<f64>::with_capacity(room));
+        starts.push(0);
         for i in 0..rows {
             row.clear();
             fill(i, &mut row);

@@ -13,6 +13,7 @@ from zlib import crc32
 
 Item, Result = TypeVar("Item"), TypeVar("Result")
 PATIENCE = 200e-6  # s
+LEAST = 1 / 64  # share of the patience that is left to who has waited in vain, so that it can find out when it pays again
 PASTIME = bytes(32768)  # its checksum takes some 10 µs, in which the lock of the interpreter is free
 
 
@@ -20,14 +21,15 @@ class Team:
     """Threads that share the wheels of a step: whoever is free takes the next one, the calling thread as well.
 
     While the FMU computes, its caller does not hold the lock of the interpreter. A thread that slept takes some hundredths of a millisecond
-    to wake up, and a wheel without heat hardly more for a step of 1 ms. Threads therefore stay awake for a while between steps, and nobody
-    has a fixed share for which all would wait. Use as a context manager, or call `close`.
+    to wake up, and a wheel without heat hardly more for a step of 1 ms. Threads therefore stay awake for a while between steps, as long as
+    that has paid lately, and nobody has a fixed share for which all would wait. Use as a context manager, or call `close`.
     """
 
     def __init__(self, threads: int | None = None, patience: float = PATIENCE) -> None:
-        """So many `threads`, with the calling one; by itself as many as the machine has. They stay awake for `patience` (s) when there is
-        nothing to do: 0 where other processes need the cores, or where more time than that lies between steps."""
-        self._orders, self._patience = SimpleQueue(), patience
+        """So many `threads`, with the calling one; by itself as many as the machine has. They stay awake for up to `patience` (s) when there
+        is nothing to do, and hardly at all where longer waits have shown that other processes need the cores, or that more time than that
+        lies between steps. With 0 they sleep at once."""
+        self._orders, self._patience = SimpleQueue(), Patience(patience)
         count = (threads or cpu_count() or 1) - 1
         self._members = [Thread(target=_serve, args=(self._orders, patience), daemon=True) for _ in range(count)]
         self._dismiss = finalize(self, _dismiss, self._orders, count)
@@ -85,7 +87,7 @@ class _Order:
             self.work()
             missing = len(self.results)
             while missing:
-                missing -= _await(self.done, patience)
+                missing -= patience.wait(self.done)
         except BaseException:
             self.todo.clear()
             raise
@@ -97,7 +99,8 @@ class _Order:
 
 def _serve(orders, patience):
     """Works on orders until there is none to come."""
-    while order := _await(orders, patience):
+    patience = Patience(patience)
+    while order := patience.wait(orders):
         order.work()
         order = None  # whoever waits keeps no wheel alive
 
@@ -108,9 +111,26 @@ def _dismiss(orders, count):
         orders.put(None)
 
 
-def _await(queue, patience):
-    """The next item of a queue. Who waits sleeps only after a while, and until then keeps the lock of the interpreter from nobody."""
-    end = perf_counter() + patience
-    while queue.empty() and perf_counter() < end:
-        crc32(PASTIME)
-    return queue.get()
+class Patience:
+    """How long a thread stays awake that waits: up to `most` (s), by what its last waits have shown."""
+
+    def __init__(self, most: float) -> None:
+        self.most = self.now = most
+
+    def wait(self, queue: SimpleQueue) -> object:
+        """The next item of a queue. Who waits keeps the lock of the interpreter from nobody."""
+        begin = perf_counter()
+        while queue.empty() and perf_counter() < begin + self.now:
+            crc32(PASTIME)
+        item = queue.get()
+        self.now = adapted(self.now, perf_counter() - begin, self.most)
+        return item
+
+
+def adapted(patience: float, waited: float, most: float) -> float:
+    """Patience after a wait: twice as long where staying awake for `most` would have met what came, half as long where not.
+
+    >>> adapted(50e-6, 120e-6, 200e-6), adapted(50e-6, 1e-3, 200e-6)
+    (0.0001, 2.5e-05)
+    """
+    return min(2.0 * patience, most) if waited <= most else max(0.5 * patience, LEAST * most)

@@ -77,16 +77,17 @@ impl DepthModes {
             weights: weights(section, curvature).iter().map(|weight| weight.map(narrow)).collect(),
             fixed,
         };
+        let [of_free, of_all] = [size, n].map(|rows| column_sums(&mass[..rows * n], n));
         for m in 0..size {
             // Positive at the surface, so that the result is reproducible.
             let sign = if shapes[m].0 < 0.0 { wide(-1.0) } else { wide(1.0) };
-            let product = |rows: usize| {
-                let entries = (0..rows).flat_map(|i| (0..size).map(move |j| (i, j)));
-                narrow(entries.fold(Wide::ZERO, |sum, (i, j)| sum + mass[i * n + j] * shapes[j * size + m]) * sign)
+            let product = |sums: &[Wide]| {
+                let entries = sums.iter().take(size).enumerate();
+                narrow(entries.fold(Wide::ZERO, |sum, (j, by)| sum + *by * shapes[j * size + m]) * sign)
             };
             modes.values[m] = narrow(values[m]).max(0.0);
             modes.surface[m] = narrow(shapes[m] * sign);
-            (modes.free[m], modes.content[m]) = (product(size), product(n));
+            (modes.free[m], modes.content[m]) = (product(&of_free), product(&of_all));
             for i in 0..size {
                 modes.shapes[(i, m)] = narrow(shapes[i * size + m] * sign);
             }
@@ -174,6 +175,14 @@ impl DepthModes {
         }
         integrals
     }
+}
+
+/// Sums over rows of `width` numbers, by column.
+fn column_sums(rows: &[Wide], width: usize) -> Vec<Wide> {
+    rows.chunks_exact(width).fold(vec![Wide::ZERO; width], |mut sums, row| {
+        sums.iter_mut().zip(row).for_each(|(sum, entry)| *sum += *entry);
+        sums
+    })
 }
 
 /// `∫ G N N dz` and `∫ G N′N′ dz`, row-major, of quadratic elements; `G` is the product of two linear functions.
