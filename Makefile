@@ -314,12 +314,12 @@ site: docs $(SITE)
 	cd site && NO_MKDOCS_2_WARNING=1 ../$(PY) -m mkdocs build --quiet
 	@echo "written: target/site/index.html"
 
-describe:
-	$(CARGO) run --release --locked --quiet -p wheelrail-pack -- describe > modelDescription.xml.new
+describe: $(BUILT)
+	$(PACKER) describe > modelDescription.xml.new
 	mv modelDescription.xml.new modelDescription.xml
-	$(CARGO) run --release --locked --quiet -p wheelrail-pack -- describe --fmi 3 > modelDescription3.xml.new
+	$(PACKER) describe --fmi 3 > modelDescription3.xml.new
 	mv modelDescription3.xml.new modelDescription3.xml
-	$(CARGO) run --release --locked --quiet -p wheelrail-pack -- describe --markdown > docs/reference.md.new
+	$(PACKER) describe --markdown > docs/reference.md.new
 	mv docs/reference.md.new docs/reference.md
 
 clean:
