@@ -32,15 +32,13 @@ from .wheelset import patches_of
 WITHOUT = {"simulate": run_commands, "steady": run_commands, "report": page, "damage": damage, "export": paraview, "patch": patch_table}
 LEVELS = ("debug", "info", "warning")
 # What the earlier program in Rust took under the same name, and what does so now: commands, and options of commands.
-PACKER = "{} is a command of wheelrail-pack, which cargo build --release makes in a checkout: target/release/wheelrail-pack {}"
 BODIES = "{} is not about the patch of a record: fields in the whole bodies are written by cargo run --release --example fields in a checkout"
 PLACES = {
     "--resources": "--resources is no option any more: presets are those of the FMU; wheelrail-pack pack --resources DIR makes one of others for --fmu",
     "--cache": "--cache is no option any more: the variable WHEELRAIL_CACHE names the folder in which computed bases are kept",
 }
-MOVED = {
-    "pack": PACKER.format("pack", "pack"),
-    "describe": PACKER.format("describe", "describe"),
+PACKER = "{0} is a command of wheelrail-pack, which cargo build --release makes in a checkout: target/release/wheelrail-pack {0}"
+MOVED = {name: PACKER.format(name) for name in ("pack", "describe")} | {
     "export": dict.fromkeys(("--scenario", "--creepage", "--velocity", "--every", "--stop", "--preset", "--set"), BODIES),
     "simulate": PLACES,
     "steady": PLACES,
@@ -55,7 +53,7 @@ def called():
 
 def parser():
     """What the command line takes."""
-    made = completion.Parser(prog=called(), description="A train brakes; what results say.")
+    made = completion.Parser(prog=called(), description="A wheel rolls, a train brakes; what results say.")
     made.add_argument("--version", action="version", version=f"wheelrail {__version__}")
     commands = made.add_subparsers(dest="command", required=True)
     for name, about in (("train", "one stop dry, with and without slide protection"), ("sweep", "many stops")):

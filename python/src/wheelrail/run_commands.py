@@ -143,7 +143,8 @@ def simulate(options: Namespace, fmu: Fmu) -> None:
         about = {name: fmu.variable(name) for name in rows.columns}
         write_rows(options.columns, [("column", "unit", "description"), ("time", "s", "Time"),
                                      *((name, v.unit or "", v.description) for name, v in about.items())])  # fmt: skip
-    _write(options.out, rows.to_csv(lineterminator="\n"))
+    text = rows.to_csv(lineterminator="\n")
+    write(options.out, text) if options.out else sys.stdout.write(text)
     if ended:
         for path in filter(None, (options.out, options.wheel_profile)):
             print(f"{path} holds what was computed up to {float(record.time[-1])} s", file=sys.stderr)
@@ -176,29 +177,17 @@ def frame(record: xarray.Dataset, names: list[str]) -> pandas.DataFrame:
     return library("pandas").DataFrame(columns | flags, index=record["time"].to_index())
 
 
-def _write(path, text):
-    """Text to a file, or to standard output."""
-    if path:
-        write(path, text)
-    else:
-        sys.stdout.write(text)
-
-
 def summary(fmu: Fmu, record: xarray.Dataset, wall: float) -> list[str]:
     """Lines about a run, in everyday units. Peaks are those of the points that were recorded."""
     at_end = {name: float(record[name][-1]) for name in SUMMARY}
     creepage = record["contact.creepage"].values[np.abs(record["wheel.velocity"].values) > ROLLING]
     peak = max(float(record[f"temperature.{body}_max"].max()) for body in ("wheel", "rail"))
-    figures = [
-        ("speed at the end", "wheel.velocity", at_end["wheel.velocity"]),
-        ("distance", "wheel.distance", at_end["wheel.distance"]),
-        ("peak creepage (above 1 m/s)", "contact.creepage", max(creepage, key=abs, default=0.0)),
-        ("energy residual", "solver.energy_residual", at_end["solver.energy_residual"]),
-    ]
-    if peak > 0.0:
-        figures[3:3] = [("peak temperature", "temperature.wheel_max", peak), ("heat residual", "solver.heat_residual", at_end["solver.heat_residual"])]
+    figures = {"speed at the end": "wheel.velocity", "distance": "wheel.distance", "peak creepage (above 1 m/s)": "contact.creepage"}
+    figures |= {"peak temperature": "temperature.wheel_max", "heat residual": "solver.heat_residual"} if peak > 0.0 else {}
+    figures |= {"energy residual": "solver.energy_residual"}
+    at_end |= {"contact.creepage": max(creepage, key=abs, default=0.0), "temperature.wheel_max": peak}
     simulated = float(record.time[-1])
-    lines = ["  {:<28}{:>11} {}".format(what, *shown(fmu, name, value)).rstrip() for what, name, value in figures]
+    lines = ["  {:<28}{:>11} {}".format(what, *shown(fmu, name, at_end[name])).rstrip() for what, name in figures.items()]
     return [*lines, f"  {'real-time factor':<28}{simulated / wall:#11.4g} x ({simulated:g} s in {wall:.4g} s, with the start)"]
 
 
@@ -223,7 +212,8 @@ def steady(options: Namespace, fmu: Fmu) -> None:
             raise
         curve, ended = failure.run, failure
     rows = curve.to_dataframe()
-    _write(options.out, table(fmu, rows) if options.table else rows.to_csv(index=False, lineterminator="\n"))
+    text = table(fmu, rows) if options.table else rows.to_csv(index=False, lineterminator="\n")
+    write(options.out, text) if options.out else sys.stdout.write(text)
     if ended:
         count = operating.COUNT if options.creepage is None else len(options.creepage)
         if options.out:
