@@ -35,7 +35,7 @@
 # make thesis    figures of the thesis by its own methods, ours and closed forms: results/thesis/index.html
 #                with FULL=1 on finer meshes, too, and with 16 points or more a curve; ACCEPT=1 keeps the values that it found
 # make bench     one table: steps, their growth, eight wheels, starts, memory; appended to results/bench.jsonl
-# make bench NAME=ordinary BEFORE=path/libwheelrail.so  steps in ordinary driving, beside an older library in turn; ARGS=--list
+# make bench NAME=ordinary BEFORE=older.fmu  steps in ordinary driving, beside an older FMU in turn; ARGS=--list
 # make bench NAME=instructions  those of a step, by valgrind, beside those that are kept; says where 5 % have been added
 # make endurance a million steps of mixed driving: failures, memory, energy audit
 # make endurance NAME=parameters  a thousand random parameter sets, simulated or refused by name, never wrong or hanging
@@ -62,7 +62,7 @@ RELEASE_CARGO := $(WRAPPED) $(CARGO)
 
 # Everything is built in one profile and one target directory, so that dependencies compile once.
 TARGET := $(or $(CARGO_TARGET_DIR),target)
-BINARY := $(TARGET)/release/wheelrail
+PACKER := $(TARGET)/release/wheelrail-pack
 LIBRARY := $(TARGET)/release/libwheelrail.so
 FMU := target/wheelrail.fmu
 FMU3 := target/wheelrail-fmi3.fmu
@@ -95,8 +95,8 @@ OUT ?= results
 SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
 SITE := $(VENV)/.site
-SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml contact/Cargo.toml numerics/Cargo.toml slave/Cargo.toml \
-	$(shell find src contact/src numerics/src slave/src resources docs/theory -type f) \
+SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml contact/Cargo.toml numerics/Cargo.toml pack/Cargo.toml slave/Cargo.toml \
+	$(shell find src contact/src numerics/src pack/src slave/src resources docs/theory -type f) \
 	docs/fmu.html docs/page.html docs/style.css docs/profiles.md docs/patches.md docs/coupling.md docs/validation.md docs/speed.md \
 	docs/flat.png docs/hunting.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
@@ -122,7 +122,7 @@ environments: $(INSTALLED) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 
 # Packages that are tested together, so that all are compiled with the same features.
 UNITS := -p wheelrail -p wheelrail-contact -p wheelrail-numerics
-PACKAGES := $(UNITS) -p wheelrail-slave -p wheelrail-bench
+PACKAGES := $(UNITS) -p wheelrail-pack -p wheelrail-slave -p wheelrail-bench
 
 ifdef COMPILE
 test-rust: $(COACH)
@@ -179,7 +179,7 @@ sweep: $(FMU) $(TRAIN)
 # limit that either of them finds broken ends both with an error.
 PROGRAMS = $(wildcard examples/ex??_$(subst -,_,$(NAME)).py)
 PRESETS := --name locked_wheels_presets --presets all --by speed,brake --speeds 40,80,120,160,200 --steps 1e-3 --meshes 10
-study: $(FMU) $(INSTALLED) $(if $(filter published,$(NAME)),$(RECORDS))
+study: $(FMU) $(INSTALLED) $(if $(filter published locked-wheels,$(NAME)),$(RECORDS))
 	@test -f "$(PROGRAMS)" || { echo 'make study NAME=name, one of: $(STUDIES)'; exit 1; }
 	$(PY) $(PROGRAMS) --fmu $(FMU) $(if $(filter eight-wheels,$(NAME)),,--out $(OUT)) $(ARGS); first=$$?; \
 	$(if $(filter locked-wheels,$(NAME)),$(PY) $(PROGRAMS) --fmu $(FMU) --out $(OUT) $(PRESETS) &&) exit $$first
@@ -192,9 +192,9 @@ thesis:
 	@if command -v octave > /dev/null; then octave --quiet thesis/baseline.m results/thesis/step.txt | tee results/thesis/baseline.txt || true; \
 		else echo "monolithic baseline skipped: octave is not installed"; fi
 
-# Instructions are counted in the program of the steps.
-bench: $(if $(filter instructions,$(NAME)),$(BUILT))
-	$(if $(filter instructions,$(NAME)),$(PYTHON) tools/instructions.py --binary $(BINARY) $(ARGS), \
+# Instructions are counted in a benchmark that runs under valgrind.
+bench:
+	$(if $(filter instructions,$(NAME)),$(WRAPPED) $(PYTHON) tools/instructions.py $(ARGS), \
 		$(CARGO) bench --locked --bench $(or $(NAME),table) -- $(if $(BEFORE),--before $(abspath $(BEFORE))) $(ARGS))
 
 # Each says what it does in the first lines of `make help`.
@@ -249,15 +249,15 @@ site: docs $(SITE)
 	cd site && NO_MKDOCS_2_WARNING=1 ../$(PY) -m mkdocs build --quiet
 	@echo "written: target/site/index.html"
 
-describe:
-	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe > modelDescription.xml.new
+describe: $(BUILT)
+	$(PACKER) describe > modelDescription.xml.new
 	mv modelDescription.xml.new modelDescription.xml
-	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe --fmi 3 > modelDescription3.xml.new
+	$(PACKER) describe --fmi 3 > modelDescription3.xml.new
 	mv modelDescription3.xml.new modelDescription3.xml
-	$(CARGO) run --release --locked --quiet --bin wheelrail -- describe --markdown > docs/reference.md.new
+	$(PACKER) describe --markdown > docs/reference.md.new
 	mv docs/reference.md.new docs/reference.md
-	@$(MAKE) --no-print-directory $(BUILT)
-	$(PYTHON) examples/reference/make.py --binary $(BINARY)
+	@$(MAKE) --no-print-directory $(FMU) $(RECORDS)
+	$(PY) examples/reference/make.py --fmu $(FMU)
 
 clean:
 	$(CARGO) clean
@@ -265,13 +265,13 @@ clean:
 
 $(FMU): $(BUILT) $(SBOM)
 	cp examples/reference/wheelrail_* $(dir $@)
-	$(BINARY) pack --out $@ --library $(LIBRARY) --resources resources --sbom $(SBOM) --cache $(CACHE)
+	$(PACKER) pack --out $@ --library $(LIBRARY) --resources resources --sbom $(SBOM) --cache $(CACHE)
 
 $(FMU3): $(BUILT) $(SBOM)
-	$(BINARY) pack --fmi 3 --out $@ --library $(LIBRARY) --resources resources --sbom $(SBOM) --cache $(CACHE)
+	$(PACKER) pack --fmi 3 --out $@ --library $(LIBRARY) --resources resources --sbom $(SBOM) --cache $(CACHE)
 
 $(SLIM): $(BUILT) $(SBOM)
-	$(BINARY) pack --no-profiles --out $@ --library $(LIBRARY) --resources resources --sbom $(SBOM) --cache $(CACHE)
+	$(PACKER) pack --no-profiles --out $@ --library $(LIBRARY) --resources resources --sbom $(SBOM) --cache $(CACHE)
 
 $(SBOM): Cargo.toml Cargo.lock slave/Cargo.toml packaging/sbom.py
 	$(PYTHON) packaging/sbom.py --out $@
@@ -282,11 +282,11 @@ $(SBOM_ALL): Cargo.toml Cargo.lock slave/Cargo.toml packaging/sbom.py
 
 # Together with the product, whose dependencies then keep their features and are not compiled anew.
 $(COACH): $(BUILT) $(shell find coach -type f)
-	$(RELEASE_CARGO) build --release --locked -p wheelrail -p wheelrail-coach
+	$(RELEASE_CARGO) build --release --locked -p wheelrail -p wheelrail-pack -p wheelrail-coach
 	touch $@
 
 $(BENCH): $(BUILT) bench/Cargo.toml $(shell find bench/src -type f)
-	$(RELEASE_CARGO) build --release --locked -p wheelrail-bench
+	$(RELEASE_CARGO) build --release --locked -p wheelrail -p wheelrail-pack -p wheelrail-bench
 	touch $@
 
 $(BENCH_WASM): $(BUILT) bench/build packaging/rustc-wrapper bench/Cargo.toml $(shell find bench/src -type f)
@@ -298,7 +298,7 @@ $(BENCH_PAGE): $(BENCH_WASM) $(BENCH) $(FMU) bench/assemble.py bench/library.py 
 # Exported functions, version of glibc and size are checked before the archive gets its name.
 $(FMU_ALL): $(BUILT) $(PLATFORMS) $(SBOM_ALL) packaging/build packaging/mingw-linker packaging/rustc-wrapper
 	PATH="$(abspath $(VENV)/bin):$$PATH" packaging/build
-	$(BINARY) pack --out $@.new --binary linux64=target/linux64/wheelrail.so --binary win64=target/win64/wheelrail.dll \
+	$(PACKER) pack --out $@.new --binary linux64=target/linux64/wheelrail.so --binary win64=target/win64/wheelrail.dll \
 		--resources resources --sbom $(SBOM_ALL) --cache $(CACHE)
 	$(PYTHON) packaging/check.py $@.new
 	mv $@.new $@
@@ -306,14 +306,14 @@ $(FMU_ALL): $(BUILT) $(PLATFORMS) $(SBOM_ALL) packaging/build packaging/mingw-li
 # The libraries of the other archive have both interfaces. FMI 3.0 has a name for Linux on ARM as well.
 $(FMU_ALL3): $(FMU_ALL)
 	arm=target/aarch64-linux/wheelrail.so; \
-	$(BINARY) pack --fmi 3 --out $@.new --binary x86_64-linux=target/linux64/wheelrail.so --binary x86_64-windows=target/win64/wheelrail.dll \
+	$(PACKER) pack --fmi 3 --out $@.new --binary x86_64-linux=target/linux64/wheelrail.so --binary x86_64-windows=target/win64/wheelrail.dll \
 		$$(test ! -f $$arm || echo --binary aarch64-linux=$$arm) \
 		--resources resources --sbom $(SBOM_ALL) --cache $(CACHE)
 	$(PYTHON) packaging/check.py $@.new
 	mv $@.new $@
 
 $(SLIM_ALL): $(FMU_ALL)
-	$(BINARY) pack --no-profiles --out $@ --binary linux64=target/linux64/wheelrail.so --binary win64=target/win64/wheelrail.dll \
+	$(PACKER) pack --no-profiles --out $@ --binary linux64=target/linux64/wheelrail.so --binary win64=target/win64/wheelrail.dll \
 		--resources resources --sbom $(SBOM_ALL) --cache $(CACHE)
 
 $(BUILT): $(SOURCES)

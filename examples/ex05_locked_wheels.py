@@ -1,12 +1,10 @@
-"""Example 5: locked wheels. Wheels of every preset that slide for two seconds, at several speeds, steps and meshes, without an FMU
-master.
+"""Example 5: locked wheels. Wheels of every preset that slide for two seconds, at several speeds, steps and meshes.
 
     make study NAME=locked-wheels
-    python3 examples/ex05_locked_wheels.py --binary target/release/wheelrail --speeds 60 --steps 1e-3,2e-4 --meshes 10,20
+    python examples/ex05_locked_wheels.py --speeds 60 --steps 1e-3,2e-4 --meshes 10,20
 
 A wheel rolls, its rotation is stopped within 20 ms while the vehicle goes on, and it slides. What stops it is its prescribed
-angular velocity, or with `--by brake` a brake that is stronger than any friction. Every run is one call of the command line, two
-at a time. Printed for each run:
+angular velocity, or with `--by brake` a brake that is stronger than any friction. Two runs are computed at a time. Printed for each:
 
     p max, p mean  highest peak pressure, and its mean in time while locked, in MPa
     T max          highest surface temperature of wheel and rail in the contact, in °C
@@ -29,13 +27,14 @@ import csv
 import itertools
 import json
 import os
-import subprocess
 import sys
-import tempfile
 import time
-import xml.etree.ElementTree as ElementTree
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
+
+import wheelrail
+from wheelrail import run_commands
+from wheelrail.fmu import default_path
 
 KELVIN = 273.15  # K at 0 °C
 LOCK = 0.02  # s, in which the rotation stops
@@ -63,7 +62,7 @@ OUTPUTS = (
     "solver.internal_steps", "energy.friction", "energy.plastic", "energy.damping", "energy.stored", "energy.hub_work",
     "energy.thermal_work",
 )  # fmt: skip
-# Written, too, if the binary has them.
+# Recorded, too, if the FMU has them.
 IF_THERE = ("damage.yielded", "damage.melted", "damage.flattening")
 
 
@@ -130,59 +129,58 @@ def figures(table, austenitisation, tolerance):
     return found | {name: max(table[name]) for name in IF_THERE if name in table}
 
 
-class Binary:
-    """The command line tool, with what the runs of a preset need to know about it."""
+class Preset:
+    """Wheels of a preset, with what their runs need to know about it."""
 
-    def __init__(self, options, preset):
-        self.options, self.preset = options, preset
-        described = subprocess.run([options.binary, "describe"], capture_output=True, text=True, check=True).stdout
-        model = ElementTree.fromstring(described)
-        self.starts = {v.get("name"): v[0].get("start") for v in model.iter("ScalarVariable") if len(v)}
-        content = json.loads((options.resources / f"{preset}.json").read_text())
+    def __init__(self, fmu, options, preset):
+        self.fmu, self.options, self.preset = fmu, options, preset
+        self.starts = {name: variable.start for name, variable in fmu.variables.items()}
+        content = json.loads(Path(fmu.directory, "resources", f"{preset}.json").read_text())
         self.starts |= {f"{group}.{name}": v for group, values in content.items() for name, v in values.items()}
-        self.starts |= dict(setting.split("=", 1) for setting in options.set)
+        self.starts |= dict(options.settings)
         self.outputs = OUTPUTS + tuple(name for name in IF_THERE if name in self.starts)
 
     def number(self, name):
         """A parameter of the runs."""
         return float(self.starts[name])
 
-    def scenario(self, velocity, by):
-        """Text of a scenario in which a wheel is locked at a speed [m/s] by its prescribed speed or by its brake."""
+    def inputs(self, velocity, by):
+        """Inputs that lock a wheel at a speed [m/s] by its prescribed speed or by its brake."""
         radius = self.number("wheel.radius")
         if by == "speed":
             head, rotation, free, locked = "drive.omega", "velocity", velocity / radius, 0.0
         else:
             strongest = STRONGER * max(self.number("friction.coefficient"), 1.0) * self.number("model.nominal_load") * radius
             head, rotation, free, locked = "brake.torque", "moment", 0.0, strongest
-        rows = ((0, free), (LOCK, locked), (self.options.stop, locked))
-        lines = [f"{time!r},{rotation},velocity,{velocity!r},{value!r}" for time, value in rows]
-        return "\n".join([f"time,control.rotation,control.translation,drive.velocity,{head}", *lines, ""])
+        course = [0.0, LOCK, max(self.options.stop, LOCK)], [free, locked, locked]
+        return {"control.rotation": rotation, "control.translation": "velocity", "drive.velocity": velocity, head: course}
 
-    def slide(self, directory, speed, step, elements, by):
+    def slide(self, speed, step, elements, by):
         """Runs a slide from a speed [km/h] with a step [s] on a mesh; returns its figures."""
         velocity, name = speed / 3.6, f"{self.preset}_{by}_{speed:g}kmh_{step * 1e3:g}ms_{elements}"
-        scenario, out = directory / f"{name}_scenario.csv", directory / f"{name}.csv"
-        scenario.write_text(self.scenario(velocity, by))
-        settings = {"initial.velocity": velocity, "mesh.elements_per_half_width": elements}
-        settings = [f"{key}={value!r}" for key, value in settings.items()] + self.options.set
-        o = self.options
-        command = [o.binary, "simulate", "--preset", self.preset, "--resources", o.resources, "--cache", o.cache]
-        command += ["--scenario", scenario, "--step", repr(step), "--stop", repr(o.stop), "--out", out]
-        command += ["--outputs", ",".join(self.outputs)] + [word for s in settings for word in ("--set", s)]
-        began = time.perf_counter()
-        run = subprocess.run([str(word) for word in command], capture_output=True, text=True)
-        errors = [line for line in run.stderr.splitlines() if line.startswith("error")]
-        if not out.is_file():
-            sys.exit("\n".join(errors) or run.stderr)
-        with open(out, newline="") as file:
-            rows = list(csv.reader(file))
-        table = dict(zip(rows[0], zip(*[[float(value) for value in row] for row in rows[1:]])))
+        parameters, inputs = run_commands.given(self, self.fmu)
+        parameters |= {"initial.velocity": velocity, "mesh.elements_per_half_width": elements}
+        inputs |= self.inputs(velocity, by)
+        began, error = time.perf_counter(), ""
+        try:
+            record = wheelrail.simulate(
+                parameters, inputs, stop=self.options.stop, step=step, outputs=self.outputs, fmu=self.fmu, progress=False
+            )
+        except wheelrail.Refused as failure:
+            record, error = failure.run, str(failure)
+        rows = wheelrail.table(record)
+        if self.options.keep:
+            rows.to_csv(self.options.keep / f"{name}.csv")
+        table = {"time": list(rows.index)} | {name: [float(value) for value in rows[name]] for name in self.outputs}
         found = figures(table, self.number("thermal.austenitisation"), self.number("solver.tolerance"))
-        found["error"] = " ".join(errors) if run.returncode else ""
-        found["liquidus"] = self.number("material.liquidus") - KELVIN
+        found |= {"error": error, "liquidus": self.number("material.liquidus") - KELVIN}
         case = {"preset": self.preset, "by": by, "speed": speed, "step": step, "elements": elements}
         return found | case | {"wall": time.perf_counter() - began}
+
+    @property
+    def settings(self):
+        """What the command line sets."""
+        return self.options.settings
 
 
 HEAD = (
@@ -292,15 +290,15 @@ def words(text):
 def arguments():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--binary", type=Path, default=Path("target/release/wheelrail"), help="default: %(default)s")
-    parser.add_argument("--resources", type=Path, default=Path("resources"), help="directory of the presets")
-    parser.add_argument("--cache", type=Path, default=Path("target"), help="directory that keeps computed bases")
+    parser.add_argument("--fmu", type=Path, default=default_path(), help="default: %(default)s")
     parser.add_argument("--out", type=Path, default=Path("results"), help="directory for the table")
     parser.add_argument("--name", default="locked_wheels", help="name of the table")
     parser.add_argument("--keep", type=Path, help="directory for the CSV files of all runs")
     parser.add_argument("--presets", type=words, default=["railway"], help="names, or all; default: %(default)s")
     parser.add_argument("--by", type=words, default=["speed"], help="what stops the wheel: speed, brake")
-    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="parameter, repeatable")
+    parser.add_argument(
+        "--set", dest="settings", type=run_commands.setting, action="append", default=[], metavar="NAME=VALUE", help="parameter, repeatable"
+    )
     parser.add_argument("--speeds", type=numbers, default=[40.0, 60.0, 80.0, 120.0, 160.0], help="km/h")
     parser.add_argument("--steps", type=numbers, default=[1e-3, 2e-4, 5e-5], help="communication steps [s]")
     parser.add_argument("--meshes", type=numbers, default=[10, 20, 40], help="elements per half-width")
@@ -311,17 +309,16 @@ def arguments():
 
 def study(options):
     """All runs."""
-    every = sorted(path.stem for path in options.resources.glob("*.json"))
-    binaries = [Binary(options, preset) for preset in (every if options.presets == ["all"] else options.presets)]
-    meshes = [int(n) for n in options.meshes]
-    cases = list(itertools.product(binaries, options.speeds, options.steps, meshes, options.by))
-    # Long runs first: no process idles at the end.
-    cases.sort(key=lambda case: (case[2], -case[3]))
-    results = []
-    with tempfile.TemporaryDirectory() as temporary, ThreadPoolExecutor(options.jobs) as pool:
-        directory = options.keep or Path(temporary)
-        directory.mkdir(parents=True, exist_ok=True)
-        waiting = [pool.submit(binary.slide, directory, *case) for binary, *case in cases]
+    meshes, results = [int(n) for n in options.meshes], []
+    if options.keep:
+        options.keep.mkdir(parents=True, exist_ok=True)
+    with wheelrail.Fmu(options.fmu) as fmu, ThreadPoolExecutor(options.jobs) as pool:
+        every = sorted(path.stem for path in Path(fmu.directory, "resources").glob("*.json"))
+        presets = [Preset(fmu, options, preset) for preset in (every if options.presets == ["all"] else options.presets)]
+        cases = list(itertools.product(presets, options.speeds, options.steps, meshes, options.by))
+        # Long runs first: no core idles at the end.
+        cases.sort(key=lambda case: (case[2], -case[3]))
+        waiting = [pool.submit(preset.slide, *case) for preset, *case in cases]
         print(f"{len(cases)} runs of {options.stop:g} s, {options.jobs} at a time\n{HEAD}", flush=True)
         for done in as_completed(waiting):
             results.append(done.result())

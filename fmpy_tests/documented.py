@@ -14,14 +14,14 @@ ROOT = Path(__file__).resolve().parent.parent
 # What a command begins with: a program with something behind it, or a script of this repository.
 PROGRAM = re.compile(
     r"(?:[A-Z][A-Z_]*=\S+ )*(?:\.venv/bin/|target/release/)?"
-    r"(?:make|cargo|pip|python3?|wheelrail|wheelrail-train|fmpy|dask|octave) +[\w./'<{\[-]"
+    r"(?:make|cargo|pip|python3?|wheelrail|wheelrail-train|wheelrail-pack|fmpy|dask|octave) +[\w./'<{\[-]"
     r"|\.ci/run$|packaging/build\b|(?:\.venv/bin/)?pytest +(?:-|\S+/)"
     r"|(?:tools|docs)/(?!test_(?!times))[\w/-]+\.py|(?:packaging|examples)/[\w/-]+\.py +(?:--?\w|[a-z])"
 )
 # Pages that tell what was.
 PAST = ("CHANGELOG.md",)
 PYTHON = ("python/src", "bench", "examples", "packaging", "tools", "docs", "site")
-RUST = ("examples", "bench", "benches", "src", "coach", "contact", "numerics", "thesis", "slave")
+RUST = ("examples", "bench", "benches", "pack", "src", "coach", "contact", "numerics", "thesis", "slave")
 SHELL = ("", "sh", "bash", "console", "text")
 
 

@@ -61,6 +61,16 @@ CHECKOUT = (
     ),  # fmt: skip
     Recipe("make endurance NAME=parameters ARGS=2", ("make endurance NAME=parameters",), "2 parameter sets"),
     Recipe("cargo run --release --locked -p wheelrail-contact --example strip", says="Carter"),
+    Recipe(
+        "cargo run --release --locked --example fields -- --creepage 2e-3 --set mesh.elements_per_half_width=5 --set physics.thermal_expansion=false --out {out}",
+        ("cargo run --release --example fields", "cargo run --release --example fields -- --creepage 2e-3 --out fields"), "fields.pvd with 1 moments",
+    ),
+    Recipe(
+        "cargo run --release --locked --example fields -- --torque 4000 --stop 2e-3 --every 1e-3 --set mesh.elements_per_half_width=5 --out {out}",
+        ("cargo run --release --example fields -- --torque 4000 --stop 0.05 --every 0.01 --out film",), "fields.pvd with 3 moments",
+    ),
+    Recipe("target/release/wheelrail-pack pack --out {out}/packed.fmu", ("wheelrail-pack pack",), "packed.fmu"),
+    Recipe("target/release/wheelrail-pack describe --fmi 3", ("wheelrail-pack describe",), 'fmiVersion="3.0"'),
     Recipe("make fmu"),
     Recipe("make wheel", says=".whl"),
     Recipe("tools/house.py", says="lines"),
@@ -71,16 +81,19 @@ CHECKOUT = (
     Recipe("tools/house.py contact"),
     Recipe("tools/house.py contact rolling"),
     Recipe(
-        "python3 examples/ex05_locked_wheels.py --binary target/release/wheelrail --speeds 60 --steps 1e-3 --meshes 10 --stop 0.05 --out {out}",
-        ("python3 examples/ex05_locked_wheels.py --binary target/release/wheelrail --speeds 60 --steps 1e-3,2e-4 --meshes 10,20",),
+        ".venv/bin/python examples/ex05_locked_wheels.py --speeds 60 --steps 1e-3 --meshes 10 --stop 0.05 --out {out}",
+        ("python examples/ex05_locked_wheels.py --speeds 60 --steps 1e-3,2e-4 --meshes 10,20",),
     ),
     Recipe("python3 packaging/release.py v{version}", ("python3 packaging/release.py v0.4.0",), "{version}"),
     Recipe("python3 packaging/sbom.py --out {out}/bill.json", ("python3 packaging/sbom.py --out FILE [--target TRIPLE ...]",), "crates"),
     Recipe(".venv/bin/python packaging/wheel.py --sdist --out {out}", (".venv/bin/python packaging/wheel.py --sdist [--out FOLDER]",), ".tar.gz"),
     Recipe(".venv/bin/python packaging/wheel.py {fmu} --out {out}", (".venv/bin/python packaging/wheel.py FMU [--out FOLDER]",), ".whl"),
     Recipe(
-        "python3 tools/same_results.py target/release/wheelrail target/release/wheelrail --only railway --jobs 1",
-        ("python3 tools/same_results.py BEFORE AFTER [--only NAME,NAME] [--tolerance 0] [--jobs 2]",), "same",
+        ".venv/bin/python tools/same_results.py {fmu} {fmu} --only railway,paper_a",
+        (
+            ".venv/bin/python tools/same_results.py BEFORE.fmu AFTER.fmu [--only NAME,NAME] [--tolerance 0] [--jobs 2]",
+            ".venv/bin/python tools/same_results.py BEFORE.fmu AFTER.fmu",
+        ), "0 of 2 cases differ",
     ),
     Recipe(".venv/bin/python examples/ex00_minimal.py", says="temperature.wheel_max"),
     Recipe(".venv/bin/python examples/ex18_next_wheel.py", says="braking force"),
@@ -127,7 +140,17 @@ WHEEL = (
     Recipe("python -m wheelrail report run.nc", says="run.html"),
     Recipe("python -m wheelrail damage run.nc", says="hottest point of the tread"),
     Recipe("python -m wheelrail export run.nc", ("python -m wheelrail export run.nc", "python -m wheelrail export run.nc --out film"), "patch.pvd"),
-    Recipe("python -m wheelrail steady --creepage 0:2e-3:5", ("python -m wheelrail steady", "python -m wheelrail steady --creepage 0:2e-3:5"), "contact.force_x"),
+    Recipe("python -m wheelrail simulate --scenario brake.csv --out brake_run.csv", ("python -m wheelrail simulate --scenario brake.csv --out run.csv",), "energy residual"),
+    Recipe("wheelrail simulate --scenario brake.csv --stop 0.05 --out run5.csv", ("wheelrail simulate --scenario brake.csv --stop 5 --out run.csv", "wheelrail simulate --out run.csv"), "energy residual"),
+    Recipe(
+        "wheelrail simulate --stop 0.1 --wheel-profile out.csv --out run1.csv",
+        ("wheelrail simulate --wheel-profile out.csv", "wheelrail simulate … --wheel-profile out.csv"),
+    ),
+    Recipe("wheelrail steady --velocity 27.8 --table", says="creepage"),
+    Recipe("wheelrail steady --preset paper_d --creepage=-1e-3:1e-3:41 > curve.csv && head -2 curve.csv",
+        ("wheelrail steady --preset paper_d --creepage=-1e-3:1e-3:41 > curve.csv",), "creepage",
+    ),  # fmt: skip
+    Recipe("python -m wheelrail steady --creepage 0:2e-3:5", says="contact.force_x"),
     Recipe(
         "cd try && python -m wheelrail patch examples/profiles/s1002.prw examples/profiles/60e1.prr --inclination 1:40 --shift -1:3:2",
         (
@@ -139,31 +162,11 @@ WHEEL = (
     Recipe("python -m wheelrail report run.csv --out page.html", (".venv/bin/python -m wheelrail report RUN [--out FILE.html]",), "page.html"),
 )
 
-# In a folder with the file brake.csv and the presets, the program `wheelrail` on the path.
-PROGRAM = (
-    Recipe("wheelrail simulate --scenario brake.csv --stop 5 --out run.csv", says="energy residual"),
-    Recipe(
-        "wheelrail simulate --stop 0.1 --wheel-profile out.csv --out run.csv",
-        ("wheelrail simulate --wheel-profile out.csv", "wheelrail simulate … --wheel-profile out.csv"),
-    ),
-    Recipe("wheelrail steady --velocity 27.8 --table", says="creepage"),
-    Recipe("wheelrail steady --preset paper_d --creepage -1e-3:1e-3:41 > curve.csv && head -2 curve.csv",
-        ("wheelrail steady --preset paper_d --creepage -1e-3:1e-3:41 > curve.csv",), "creepage",
-    ),  # fmt: skip
-    Recipe("wheelrail export --creepage 2e-3 --set mesh.elements_per_half_width=5 --set physics.thermal_expansion=false --out fields && ls fields", ("wheelrail export --creepage 2e-3 --out fields",), "fields.vtm"),
-    Recipe("wheelrail export --scenario brake.csv --every 5e-3 --set mesh.elements_per_half_width=5 --out film && ls film",
-        ("wheelrail export --scenario brake.csv --every 0.05 --out film",), "fields.pvd",
-    ),  # fmt: skip
-    Recipe("wheelrail pack --library {root}/target/release/libwheelrail.so --reference {root}/examples/reference --out packed.fmu",
-        ("wheelrail pack",), "packed.fmu",
-    ),  # fmt: skip
-)
-
 # What is not run here, and why. Targets, files, options, tests and packages that these name exist all the same: see the test.
 NOT_RUN = {
     "computes for minutes and has no short version; what it measures is compared elsewhere": (
         "make endurance NAME=temperatures", "make endurance NAME=memory", "make bench", "make bench NAME=ordinary", "make bench NAME=ordinary BEFORE=…",
-        "make bench NAME=ordinary BEFORE=older/libwheelrail.so", "make bench NAME=ordinary BEFORE=path/libwheelrail.so",
+        "make bench NAME=ordinary BEFORE=older.fmu",
         'make bench NAME=ordinary BEFORE=older.fmu ARGS="--cases varying-30,lock-up --repeats 5 --json results/ordinary.json"',
         'make bench NAME=ordinary BEFORE=older.fmu ARGS="--set mesh.grid_elements_per_half_width=20 --set mesh.elements_per_half_width=10"',
         "make study NAME=locked-wheels", "tools/structural_width.py", "tools/structural_width.py wheels",
@@ -183,22 +186,22 @@ NOT_RUN = {
         "make figures", "make figures ALL=1", "make figures ACCEPT=1", 'make figures ACCEPT=1 REASON="..."',
         'make figures ACCEPT=1 REASON="fewer nodes"', "python3 tools/run_tests.py -p wheelrail --test contact", "tools/figures.py --keep locked-wheels make study NAME=locked-wheels",
         "make mutations", "tools/mutations.py", "tools/mutations.py film damping", "tools/mutations.py --factor 0.95",
-        "tools/mutations.py --brief", "tools/figures.py", "make bench NAME=instructions", "tools/instructions.py", "tools/instructions.py --accept", "cargo build --no-default-features --lib",
+        "tools/mutations.py --brief", "tools/figures.py", "make bench NAME=instructions", "tools/instructions.py", "tools/instructions.py --accept",
         "make loop TEST=lib", "make loop TEST=lib ARGS=profile", "make loop TEST=lib ARGS=every_output", "make docs", "make clean", "make fmu PROFILES=no",
         "cargo build --release", "cargo check --release --lib", "cargo loop --test wheel brake::", "cargo test",
         "cargo test --release -p wheelrail-thesis -- --nocapture", "cargo test --release -p wheelrail-thesis --test all NAME::",
         "cargo run --release --example", "tools/run_tests.py", "tools/run_tests.py -p wheelrail -p wheelrail-slave",
     ),
     "writes into the checkout what other tests compare with what is there": (
-        "make describe", "python3 examples/reference/make.py --binary target/release/wheelrail",
+        "make describe", ".venv/bin/python examples/reference/make.py --fmu target/wheelrail.fmu",
         ".venv/bin/python docs/model_png.py", "docs/third_party.py",
     ),
     "needs compilers for Windows, WebAssembly, wine, another machine or packages from the network": (
         "make bench-page",
         "make fmu ALL=1", "make fmu ALL=1 CHECK=1", "make wheel ALL=1", "make release", "python3 packaging/handout.py FOLDER", "make site", "make sweep SCHEDULER=tcp://cluster:8786",
         "make sweep SCHEDULER=tcp://host:8786", "dask scheduler", "dask worker tcp://cluster:8786",
-        "python3 packaging/hashes.py [FILE...]", "python3 packaging/check.py FMU", "python3 packaging/check.py FMU --run", "wheelrail pack --binary linux64=target/release/libwheelrail.so",
-        "wheelrail pack --binary win64=path/to/wheelrail.dll --binary darwin64=path/to/libwheelrail.dylib",
+        "python3 packaging/hashes.py [FILE...]", "python3 packaging/check.py FMU", "python3 packaging/check.py FMU --run", "wheelrail-pack pack --binary linux64=target/release/libwheelrail.so",
+        "wheelrail-pack pack --binary win64=path/to/wheelrail.dll --binary darwin64=path/to/libwheelrail.dylib",
         "pip install ./python", "pip install './python[records]'", "pip install 'wheelrail[records]'", "pip install 'wheelrail[report]'",
         "pip install exudyn", "pip install wheelrail", "python -m pip install 'wheelrail[sweep]'",
     ),

@@ -19,7 +19,7 @@ from wheelrail.__main__ import arguments, main, parser
 ROOT = Path(__file__).resolve().parent.parent
 # Modules whose functions people call, with full annotations.
 TYPED = (
-    "fmu", "runs", "records", "operating", "team", "values", "warn", "output", "tables", "signals", "surfaces", "rail_map", "vehicle",
+    "fmu", "runs", "records", "operating", "run_commands", "team", "values", "warn", "output", "tables", "signals", "surfaces", "rail_map", "vehicle",
     "wheelset", "train", "compare", "page", "completion", "grid", "damage", "paraview",
     "profile_files", "contact_geometry", "half_space", "contact_patch", "patch_table", "patch_picture",
 )  # fmt: skip
@@ -59,19 +59,6 @@ def test_bash_completes_commands_and_the_options_of_each(tmp_path):
     assert all(f"-a {name}\n" in fish for name in options if name)
 
 
-def test_stationary_states_are_those_of_the_program_in_rust(packed, tmp_path, capsys):
-    program = ROOT / "target/release/wheelrail"
-    if not program.is_file():
-        pytest.skip("target/release/wheelrail does not exist: build it with `make fmu`")
-    command = ["--preset", "paper_d", "--velocity", "10", "--creepage=-1e-3:2e-3:4"]
-    main(["steady", *command, "--fmu", str(packed)])
-    ours = list(csv.reader(capsys.readouterr().out.splitlines()))
-    there = subprocess.run([program, "steady", *command, "--resources", ROOT / "resources"], cwd=ROOT, capture_output=True, text=True, check=True)
-    theirs = list(csv.reader(there.stdout.splitlines()))
-    assert ours[0] == theirs[0] and len(ours) == 5
-    np.testing.assert_allclose(np.array(ours[1:], float), np.array(theirs[1:], float), rtol=1e-7, atol=1e-12)
-
-
 def test_a_stationary_curve_has_its_creepage_as_coordinate_and_refuses_what_it_decides_itself(fmu):
     pytest.importorskip("xarray")
     curve = wheelrail.steady({"preset": "paper_d"}, creepage=[-1e-3, 1e-3], outputs=["contact.force_x", "contact.creepage"], fmu=fmu)
@@ -102,20 +89,6 @@ def test_files_of_the_commands_have_their_units_beside_them(tmp_path, monkeypatc
             told = list(csv.DictReader(file))
         assert [row["column"] for row in told] == header and all(row["unit"] and row["description"] for row in told)
     assert {row["column"]: row["unit"] for row in told} == {"frequency": "1/(s)", "level": "dB"}
-
-
-def test_columns_of_the_program_in_rust_are_told_beside_its_names(tmp_path):
-    program = ROOT / "target/release/wheelrail"
-    if not program.is_file():
-        pytest.skip("target/release/wheelrail does not exist: build it with `make fmu`")
-    command = ["simulate", "--stop", "0.002", "--outputs", "contact.force_x,profile.x", "--out", tmp_path / "run.csv"]
-    subprocess.run([program, *command, "--columns", tmp_path / "columns.csv"], cwd=ROOT, capture_output=True, check=True)
-    with open(tmp_path / "run.csv") as file:
-        header = next(csv.reader(file))
-    with open(tmp_path / "columns.csv") as file:
-        told = list(csv.DictReader(file))
-    assert [row["column"] for row in told] == header and len(header) == 63
-    assert [row["unit"] for row in told[:3]] == ["s", "N", "m"] and "Tangential contact force" in told[1]["description"]
 
 
 def test_runs_messages_and_files_are_logged_and_nothing_is_said_unasked(fmu, tmp_path, caplog):

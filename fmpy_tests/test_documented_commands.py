@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from documented import ROOT, blocks, commands, documented, of_markdown, of_python
-from recipes import CHECKOUT, NOT_RUN, PROGRAM, WHEEL
+from recipes import CHECKOUT, NOT_RUN, WHEEL
 
 # What has been built is taken as it is: this test is no build.
 KEPT = (
@@ -78,19 +78,8 @@ def empty(tmp_path_factory, packed):
         "csv.writer(open('rail.csv', 'w')).writerows([('position', 'height'), *rows])\n"
     )
     subprocess.run([python, "-c", make], cwd=place, env=environment, check=True)
+    (place / "brake.csv").write_text("time,brake.torque\n0,0\n0.005,0\n0.01,2000\n")
     return place, environment
-
-
-@pytest.fixture
-def program(tmp_path):
-    """A folder with a scenario and the presets, and an environment with the program `wheelrail`."""
-    if not (ROOT / "target/release/wheelrail").is_file():
-        pytest.skip("target/release/wheelrail does not exist: build it with `make fmu`")
-    (tmp_path / "brake.csv").write_text("time,brake.torque\n0,0\n0.005,0\n0.01,2000\n")
-    (tmp_path / "resources").symlink_to(ROOT / "resources")
-    (tmp_path / "target").mkdir()
-    (tmp_path / "target/basis").symlink_to(ROOT / "target/basis")
-    return tmp_path, clean(PATH=f"{ROOT / 'target/release'}:{os.environ['PATH']}")
 
 
 @pytest.mark.parametrize("recipe", CHECKOUT, ids=lambda recipe: recipe.documented[0])
@@ -104,12 +93,6 @@ def test_python_commands_run_from_the_wheel_in_an_empty_environment(empty, packe
         out = tmp_path / str(number)
         out.mkdir()
         typed(recipe, place, out, environment, packed.resolve())
-
-
-@pytest.mark.parametrize("recipe", PROGRAM, ids=lambda recipe: recipe.documented[0])
-def test_commands_of_the_program_run(recipe, program, packed):
-    place, environment = program
-    typed(recipe, place, place, environment, packed.resolve())
 
 
 def words(text):
@@ -130,7 +113,7 @@ def unknown(texts, known):
 
 def known():
     """All texts that a recipe runs or that have a reason not to be run."""
-    run = [text for recipe in (*CHECKOUT, *WHEEL, *PROGRAM) for text in recipe.documented]
+    run = [text for recipe in (*CHECKOUT, *WHEEL) for text in recipe.documented]
     return run + [text for texts in NOT_RUN.values() for text in texts]
 
 

@@ -1,7 +1,6 @@
 """Inputs over time: any form in which a person or pandas gives times means them or is refused; jumps act at their time for every
-step, what varies within a step acts with its mean, and the command line computes the same."""
+step, and what varies within a step acts with its mean."""
 
-import csv
 import datetime
 import os
 import subprocess
@@ -20,7 +19,6 @@ from wheelrail.samples import samples_of
 
 pandas, xarray = pytest.importorskip("pandas"), pytest.importorskip("xarray")
 ROOT = Path(__file__).parent.parent
-PROGRAM = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release" / "wheelrail"
 TIMES, VALUES = [0.0, 0.5, 1.0], [1.0, 2.0, 3.0]
 NOON = pandas.Timestamp("2026-03-01 12:00")
 DATES = [NOON + pandas.Timedelta(seconds=time) for time in TIMES]
@@ -193,28 +191,6 @@ def test_a_line_in_place_of_samples_has_their_mean_and_moment_and_stays_within_t
         assert values.min() - 1e-12 <= min(first, last) <= max(first, last) <= values.max() + 1e-12
         if values.min() + 1e-9 < min(first, last) and max(first, last) < values.max() - 1e-9:
             assert np.trapezoid((line - course) * fine, fine) == pytest.approx(0.0, abs=1e-4)
-
-
-def command_line(folder, rows, step, stop):
-    """Times and speeds of the command line under a scenario."""
-    (folder / "scenario.csv").write_text("time,drive.force\n" + "".join(f"{time!r},{value!r}\n" for time, value in rows))
-    arguments = ["--set", "initial.velocity=20", "--set", "thermal.enabled=false", "--outputs", "wheel.velocity,contact.force_x"]
-    arguments += [f"--scenario={folder / 'scenario.csv'}", f"--step={step!r}", f"--stop={stop!r}", "--cache", str(ROOT / "target")]
-    run = subprocess.run([PROGRAM, "simulate", *arguments], capture_output=True, text=True, cwd=ROOT, check=True)
-    return np.array([[float(cell) for cell in row] for row in list(csv.reader(run.stdout.splitlines()))[1:]])
-
-
-@pytest.mark.parametrize("step", STEPS)
-def test_a_run_from_python_is_that_of_the_command_line(fmu, tmp_path, step):
-    parameters, stop = {"initial.velocity": 20.0, "thermal.enabled": False}, 0.2 if step > 0.01 else 0.04
-    for jump in (0.003, 0.013, 0.029) if stop < 0.1 else (0.057, 0.1):
-        rows = [(0.0, 0.0), (jump, 0.0), (jump, 2e4), (jump + 0.004, 2e4), (jump + 0.0043, -1e4), (jump + 0.0047, 0.0)]
-        run = wheelrail.simulate(parameters, {"drive.force": rows}, stop=stop, step=step, fmu=fmu, progress=False,
-                                 outputs=["wheel.velocity", "contact.force_x"])  # fmt: skip
-        time, speed, force = command_line(tmp_path, rows, step, stop).T
-        apart = np.abs(run["wheel.velocity"] - speed).max(), np.abs(run["contact.force_x"] - force).max()
-        print(f"{1e3 * step} ms, jump at {1e3 * jump} ms: speeds {float(apart[0]):.1e} m/s, forces {float(apart[1]):.1e} N apart")
-        assert len(time) == run.sizes["time"] and apart[0] < 1e-11 and apart[1] < 1e-5
 
 
 def test_a_pulse_within_a_step_changes_the_speed_as_in_short_steps(fmu):

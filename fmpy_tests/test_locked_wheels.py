@@ -2,7 +2,6 @@
 
 import argparse
 import math
-from pathlib import Path
 
 import ex05_locked_wheels as example
 import pytest
@@ -79,22 +78,22 @@ def test_energy_is_related_to_what_has_flowed_also_where_nothing_is_dissipated()
         ({"speed": 60.0, "Ac1": None}, "Ac1 not within"),
     ],
 )
-def test_a_study_that_prints_a_broken_limit_ends_with_one(change, limit, tmp_path, monkeypatch, capsys):
+def test_a_study_that_prints_a_broken_limit_ends_with_one(change, limit, packed, tmp_path, monkeypatch, capsys):
     results = []
 
     class Fixed:
-        """In the place of the command line tool: its runs are known."""
+        """In the place of wheels: their runs are known."""
 
-        def __init__(self, options, preset):
+        def __init__(self, fmu, options, preset):
             pass
 
-        def slide(self, directory, speed, step, elements, by):
+        def slide(self, speed, step, elements, by):
             return results[-1]
 
-    monkeypatch.setattr(example, "Binary", Fixed)
+    monkeypatch.setattr(example, "Preset", Fixed)
     options = argparse.Namespace(
-        resources=Path("resources"), presets=["railway"], meshes=[10], speeds=[40.0], steps=[1e-3], by=["speed"], jobs=1, keep=tmp_path,
-        out=tmp_path, name="locked", stop=2.0,
+        fmu=packed, presets=["railway"], meshes=[10], speeds=[40.0], steps=[1e-3], by=["speed"], jobs=1, keep=tmp_path, out=tmp_path,
+        name="locked", stop=2.0,
     )  # fmt: skip
     for row, code in ((KEPT, 0), (KEPT | change, 1)):
         results.append(row)

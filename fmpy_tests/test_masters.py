@@ -4,18 +4,14 @@ The brake moment is constant over each communication step, so that masters that 
 them set the same values. It starts from zero, because some masters set inputs in Initialization Mode and others do not.
 """
 
-import csv
 import ctypes
-import os
-import subprocess
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 
 import fmpy
 import numpy as np
 import pytest
 
+import wheelrail
 from wheelrail import Wheel
 
 STEP = 1e-3  # s
@@ -97,27 +93,12 @@ def in_ecos(fmu, start, moments):
     return np.array(rows)
 
 
-def in_command_line(fmu, start, moments):
-    """The project's own master, in one process with the slave: inputs as a scenario with a jump at every step."""
-    root = Path(__file__).parent.parent
-    program = Path(os.environ.get("CARGO_TARGET_DIR", root / "target")) / "release" / "wheelrail"
-    preset = start.get("preset", "railway")
-    settings = [f"--set={name}={value!r}" for name, value in start.items() if name != "preset"]
-    with TemporaryDirectory() as directory:
-        scenario, out = Path(directory) / "scenario.csv", Path(directory) / "out.csv"
-        with open(scenario, "w", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(("time", "drive.moment"))
-            for k, moment in enumerate(moments):
-                writer.writerows([(k * STEP, moment), ((k + 1) * STEP, moment)])
-        command = [
-            program, "simulate", f"--preset={preset}", *settings, f"--scenario={scenario}", f"--step={STEP}",
-            f"--outputs={','.join(OUTPUTS)}", f"--out={out}",
-        ]  # fmt: skip
-        subprocess.run(command, cwd=root, check=True, capture_output=True)
-        with open(out) as file:
-            rows = [[float(row[name]) for name in OUTPUTS] for row in csv.DictReader(file)]
-    return np.array(rows)[1:]
+def in_wheelrail(fmu, start, moments):
+    """The project's own master: inputs as a scenario with a jump at every step."""
+    times = [k * STEP for k in range(len(moments) + 1)]
+    course = np.repeat(times, 2)[1:-1], np.repeat(moments, 2)
+    run = wheelrail.simulate(start, {"drive.moment": course}, stop=times[-1], step=STEP, outputs=OUTPUTS, fmu=fmu.path, progress=False)
+    return wheelrail.table(run)[list(OUTPUTS)].to_numpy()[1:]
 
 
 def need_tbb():
@@ -152,14 +133,14 @@ def assert_same(rows, expected):
         assert worst <= TOLERANCE, f"{name} differs by {worst:.1e}"
 
 
-@pytest.mark.parametrize("master", [in_fmpy, in_libcosim, in_ecos, in_command_line])
+@pytest.mark.parametrize("master", [in_fmpy, in_libcosim, in_ecos, in_wheelrail])
 def test_every_master_computes_the_same_braking(unit, braking, master):
     if master is in_ecos:
         need_tbb()
     assert_same(master(unit, START, MOMENTS), braking)
 
 
-@pytest.mark.parametrize("master", [in_fmpy, in_libcosim, in_ecos, in_command_line])
+@pytest.mark.parametrize("master", [in_fmpy, in_libcosim, in_ecos, in_wheelrail])
 def test_every_master_reaches_the_presets(unit, master):
     """Presets are files in the resources, which not every master points to in the same way."""
     if master is in_ecos:

@@ -61,7 +61,7 @@ def test_metadata_is_complete(fmu):
 
 
 def test_an_fmu_without_profiles_is_the_same_but_for_their_names(packed, fmu, tmp_path):
-    binary = ROOT / "target" / "release" / "wheelrail"
+    binary = ROOT / "target" / "release" / "wheelrail-pack"
     slim = tmp_path / "slim.fmu"
     command = [binary, "pack", "--no-profiles", "--out", slim, "--library", ROOT / "target/release/libwheelrail.so"]
     subprocess.run(command, cwd=ROOT, check=True, capture_output=True)

@@ -1,10 +1,6 @@
 """A recorded time is the number that a person writes, whatever the step, however long the run, whoever records it."""
 
-import csv
-import io
 import json
-import os
-import subprocess
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from pathlib import Path
@@ -14,11 +10,11 @@ import pytest
 
 import wheelrail
 from wheelrail import scenario, train
+from wheelrail.__main__ import main
 from wheelrail.times import after, at
 
 pandas, xarray = pytest.importorskip("pandas"), pytest.importorskip("xarray")
 ROOT = Path(__file__).parent.parent
-PROGRAM = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release" / "wheelrail"
 COLD = {"initial.velocity": 20.0, "thermal.enabled": False}
 STEPS = ["1e-4", "2e-4", "1e-3", "2.5e-3", "5e-3", "0.01", "0.1", "7e-6", "0.00123"]
 
@@ -141,13 +137,12 @@ def test_a_stop_of_a_train_has_such_times():
 
 
 @pytest.mark.parametrize("step", ["0.001", "0.0025", "0.0001", "0.3333333333333333"])
-def test_the_command_line_writes_such_times(step):
+def test_the_command_line_writes_such_times(step, packed, capsys):
     stop, whole = (0.05, False) if float(step) < 0.1 else (1.0, True)
-    arguments = ["--step", step, "--stop", str(stop), "--outputs", "wheel.velocity", "--set", "thermal.enabled=false", "--cache", str(ROOT / "target")]
-    done = subprocess.run([PROGRAM, "simulate", *arguments], capture_output=True, text=True, cwd=ROOT, check=True)
-    cells = [row[0] for row in csv.reader(io.StringIO(done.stdout))][1:]
-    expected = [str(k / 3) for k in range(4)] if whole else [str(at(k, float(step))) for k in range(len(cells))]
-    assert [float(cell) for cell in cells] == [float(text) for text in expected] and max(map(len, cells[:-1])) <= (20 if whole else 7)
+    main(["simulate", "--step", step, "--stop", str(stop), "--outputs", "wheel.velocity", "--set", "thermal.enabled=false", "--fmu", str(packed)])
+    cells = [line.split(",")[0] for line in capsys.readouterr().out.splitlines()][1:]
+    assert cells == [str(k / 3) if whole else str(at(k, float(step))) for k in range(len(cells))] and len(cells) == round(stop / float(step)) + 1
+    assert max(map(len, cells[:-1])) <= (20 if whole else 7)
 
 
 @pytest.mark.parametrize("ending", ["nc", "parquet"])

@@ -27,7 +27,7 @@ def host():
 def linked(target):
     """Crates that are linked for a platform, the product first, each with the names of those that it needs: by their package URL, or
     by `workspace:` for those of this repository."""
-    library = ["--package", "wheelrail", "--no-default-features", "--edges", "normal,no-proc-macro"]
+    library = ["--package", "wheelrail", "--edges", "normal,no-proc-macro"]
     command = [CARGO, "tree", "--locked", *library, "--target", target]
     lines = subprocess.run(
         [*command, "--prefix", "depth", "--format", "\t{p}\t{l}\t{r}\t"], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True

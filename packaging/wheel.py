@@ -19,8 +19,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 # As packaging/check.py demands of the binaries of `make fmu ALL=1`.
 PORTABLE = {"linux64": "manylinux_2_17_x86_64.manylinux2014_x86_64", "win64": "win_amd64"}
-# Examples that need a checkout: programs in Rust, and one that starts such a program.
-CHECKOUT_ONLY = {"ex03_endurance", "ex04_random_parameters", "ex05_locked_wheels.py", "reference", "__pycache__"}
+# Examples that need a checkout: programs in Rust, and the run that is packed.
+CHECKOUT_ONLY = {"ex03_endurance", "ex04_random_parameters", "fields", "reference", "__pycache__"}
 
 
 def staged(folder):

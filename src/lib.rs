@@ -57,7 +57,7 @@
 //! | [`wheels`] | many of them, stepped side by side on all cores | |
 //! | [`fmi`] | the FMI 2.0 co-simulation slave around it | |
 //!
-//! The command line is a room of the binary, `src/cli`. How to add to a room: `CONTRIBUTING.md`.
+//! The archive is made by the crate `wheelrail-pack`. How to add to a room: `CONTRIBUTING.md`.
 //!
 //! [ale-balance]: ../../../docs/theory/ale-balance.md
 //! [condensation]: ../../../docs/theory/condensation.md

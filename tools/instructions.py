@@ -24,50 +24,21 @@ ROOT = Path(__file__).resolve().parent.parent
 KEPT = ROOT / "benches" / "instructions.json"
 COUNTED = "wheelrail::simulation::Simulation::advance*"
 GROWTH = 0.05
-STEPS = 60
-COLUMNS = ("time", "drive.moment", "brake.torque", "drive.lateral_velocity")
-PERIOD = 0.04  # of a moment that varies, s
-MOMENT = -7000.0  # about half of the adhesion limit, N m
-COLD = {"thermal.enabled": "false"}
-ELLIPSE = {"preset": "railway_ellipse"}
-SIDEWAYS = {"contact.lateral": "true"}
-# Name, parameters, and inputs by time: a line of a scenario each, of the first of these columns.
-HELD = [f"{time},{MOMENT},0" for time in (0, 1)]
-SWAYING = [f"{k * PERIOD / 2},{MOMENT},0,{-0.05 if k % 2 else 0.05}" for k in range(10)]
-VARYING = [f"{k * PERIOD / 2},{MOMENT * (1.3 if k % 2 else 0.7)},0" for k in range(10)]
-LOCKING = ["0,0,7000", "0.02,0,7000", "0.02,0,40000", "1,0,40000"]
-CASES = {
-    "line, held": ({}, HELD),
-    "line, varying": ({}, VARYING),
-    "line without heat, held": (COLD, HELD),
-    "line without heat, varying": (COLD, VARYING),
-    "line, brake that locks": ({}, LOCKING),
-    "seven lines, varying": (ELLIPSE, VARYING),
-    "seven lines without heat, held": (ELLIPSE | COLD, HELD),
-    "seven lines without heat, varying": (ELLIPSE | COLD, VARYING),
-    "seven lines sideways without heat, held": (ELLIPSE | COLD | SIDEWAYS, HELD),
-    "seven lines sideways without heat, swaying": (ELLIPSE | COLD | SIDEWAYS, SWAYING),
-}
+STEPS = 60  # of a case of benches/instructions.rs
 
 
-def command(program, folder, parameters, lines):
-    """The command that simulates a case in a folder."""
-    scenario = folder / "scenario.csv"
-    names = COLUMNS[: lines[0].count(",") + 1]
-    scenario.write_text("\n".join([",".join(names), *lines]) + "\n")
-    settings = {"initial.velocity": "27"} | {name: value for name, value in parameters.items() if name != "preset"}
-    sets = [word for name, value in settings.items() for word in ("--set", f"{name}={value}")]
-    places = ["--resources", str(ROOT / "resources"), "--cache", str(ROOT / "target"), "--out", str(folder / "run.csv")]
-    run = ["--preset", parameters.get("preset", "railway"), "--scenario", str(scenario), "--stop", str(STEPS * 1e-3)]
-    return [str(program), "simulate", *places, *run, *sets]
+def built():
+    """The program of benches/instructions.rs, which is compiled if need be."""
+    command = [os.environ.get("CARGO", "cargo"), "bench", "--locked", "--no-run", "--bench", "instructions", "--message-format", "json"]
+    lines = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
+    return next(made["executable"] for made in map(json.loads, lines) if made.get("executable"))
 
 
-def count(program, parameters, lines):
+def count(program, case):
     """Instructions of a step, on average."""
     with tempfile.TemporaryDirectory() as folder:
         valgrind = ["valgrind", "--tool=callgrind", f"--toggle-collect={COUNTED}", f"--callgrind-out-file={folder}/callgrind"]
-        simulate = command(program, Path(folder), parameters, lines)
-        run = subprocess.run([*valgrind, *simulate], cwd=ROOT, capture_output=True, text=True)
+        run = subprocess.run([*valgrind, program, case], cwd=ROOT, capture_output=True, text=True)
     found = re.search(r"Collected : (\d+)", run.stderr)
     if run.returncode or not found or found[1] == "0":
         raise SystemExit(f"instructions cannot be counted: {run.stderr.strip() or COUNTED + ' is not called'}")
@@ -97,16 +68,16 @@ def figure(name, instructions):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--binary", type=Path, default=ROOT / "target" / "release" / "wheelrail")
     parser.add_argument("--accept", action="store_true", help=f"keep the counts in {KEPT.relative_to(ROOT)}")
     arguments = parser.parse_args()
     if not shutil.which("valgrind"):
         print("instructions not counted: valgrind is not installed")
         return
     # Counts do not depend on what runs beside them.
+    program = built()
+    cases = subprocess.run([program], check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        found = pool.map(lambda case: count(arguments.binary, *case), CASES.values())
-        counts = dict(zip(CASES, found, strict=True))
+        counts = dict(zip(cases, pool.map(lambda case: count(program, case), cases), strict=True))
     lines, grown = report(counts, json.loads(KEPT.read_text()) if KEPT.exists() else {})
     print("\n".join(lines))
     figures.keep("\n".join(figure(*case) for case in counts.items()), "make bench NAME=instructions")

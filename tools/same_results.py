@@ -1,27 +1,21 @@
-"""Results of two binaries compared bit for bit, on runs of all presets, controls, solvers and states of the surfaces.
+"""Results of two FMUs compared bit for bit, on runs of all presets, controls, solvers and states of the surfaces.
 
-    python3 tools/same_results.py BEFORE AFTER [--only NAME,NAME] [--tolerance 0] [--jobs 2]
+    .venv/bin/python tools/same_results.py BEFORE.fmu AFTER.fmu [--only NAME,NAME] [--tolerance 0] [--jobs 2]
 
-BEFORE and AFTER are two builds of the command line tool `wheelrail`. Each case below runs with both; every output that both
-know, all points of the profiles included, is compared at every communication point. Runs of BEFORE are kept beside the
-system's temporary files under a digest of the binary, so that they are computed once.
-
-Printed for each case: `same` (every bit), or the largest difference over the largest magnitude of that output in the run,
-with the output's name and the time. Ends with 1 if a difference exceeds the tolerance.
+Each case below runs with both, driven by the Python package of this checkout; every output that both know, all points of the profiles
+included, is compared at every communication point. Printed for each case: `same` (every bit), or the largest difference over the
+largest magnitude of that output in the run, with the output's name and the time. Ends with 1 if a difference exceeds the tolerance.
 """
 
 import argparse
-import csv
-import hashlib
-import os
-import subprocess
 import sys
-import tempfile
-import xml.etree.ElementTree as ElementTree
+import warnings
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-RESOURCES = Path(__file__).resolve().parent.parent / "resources"
+import numpy as np
+
+from wheelrail import Fmu, Refused, WheelrailWarning, simulate
 
 # Scenarios: rows of inputs over time, linear between the rows.
 STOP = {"time": [0, 0.05, 0.3], "brake.torque": [0, 9000, 9000], "drive.velocity": [20, 20, 19.5]}
@@ -111,92 +105,50 @@ CASES = {
 }
 
 
-def outputs(binary):
-    """Names of all outputs that a binary has, points of profiles by the name of their array."""
-    described = subprocess.run([binary, "describe"], capture_output=True, text=True, check=True).stdout
-    model = ElementTree.fromstring(described)
-    names = (v.get("name") for v in model.iter("ScalarVariable") if v.get("causality") in ("output", "local"))
-    return list(dict.fromkeys(name.split("[")[0] for name in names))
+def outputs(fmu):
+    """Names of all outputs that an FMU records, points of profiles by the name of their array."""
+    variables = (v for v in fmu.variables.values() if v.causality in ("output", "local") and v.type != "String")
+    return list(dict.fromkeys(v.name.split("[")[0] for v in variables))
 
 
-def scenario_text(rows):
-    """A scenario as the command line reads it."""
-    lines = [",".join(rows)] + [",".join(repr(value) for value in values) for values in zip(*rows.values())]
-    return "\n".join(lines) + "\n"
-
-
-def run(binary, names, case, directory):
-    """Runs a case with a binary and returns the file of its results, or of what it said when it failed."""
+def run(fmu, names, case):
+    """The record of a case, or what was said when it failed."""
     preset, settings, rows, step, stop = CASES[case]
-    out, failed = directory / f"{case}.csv", directory / f"{case}.txt"
-    if out.exists() or failed.exists():
-        return out if out.exists() else failed
-    part = directory / f"{case}_{os.getpid()}.part"
-    command = [binary, "simulate", "--preset", preset, "--resources", RESOURCES, "--step", step, "--stop", stop]
-    command += ["--out", part, "--outputs", ",".join(names)]
-    command += [word for name, value in settings.items() for word in ("--set", f"{name}={value}")]
-    if rows:
-        scenario = directory / f"{case}_scenario.csv"
-        scenario.write_text(scenario_text(rows))
-        command += ["--scenario", scenario]
-    ran = subprocess.run([str(word) for word in command], capture_output=True, text=True)
-    if ran.returncode:
-        failed.write_text(ran.stderr)
-        return failed
-    return part.rename(out)
-
-
-def number(text):
-    """A number or a truth value of a file of results."""
-    return {"false": 0.0, "true": 1.0}[text] if text in ("false", "true") else float(text)
-
-
-def table(file):
-    """Columns of a file of results by name."""
-    with open(file, newline="") as source:
-        rows = csv.reader(source)
-        names = next(rows)
-        return dict(zip(names, zip(*[[number(value) for value in row] for row in rows])))
+    parameters, inputs = {"preset": preset}, {name: (rows["time"], values) for name, values in rows.items() if name != "time"}
+    for name, value in settings.items():
+        (inputs if fmu.variable(name).causality == "input" else parameters).setdefault(name, value)
+    try:
+        return simulate(parameters, inputs, stop=stop, step=step, outputs=names, fmu=fmu, progress=False)
+    except Refused as failure:
+        return str(failure)
 
 
 def difference(before, after, leave_out=()):
-    """Largest difference of two tables, relative to the largest magnitude of its column, with its column and time; columns whose
-    names end like those to `leave_out` are none."""
+    """Largest difference of two records, relative to the largest magnitude of its output, with its name and time; outputs whose names
+    end like those to `leave_out` are none. What is no number differs from everything."""
     worst = (0.0, "", 0.0)
-    for name, values in before.items():
-        others = after[name]
-        if name.endswith(tuple(leave_out)):
+    for name in before.data_vars:
+        a, b = before[name].values, after[name].values
+        if name.endswith(tuple(leave_out)) or np.array_equal(a, b):
             continue
-        if values == others:
-            continue
-        if len(values) != len(others):
-            return float("inf"), "number of points", min(len(values), len(others))
-        scale = max(map(abs, values)) or 1.0
-        apart = [0.0 if a == b else abs(a - b) / scale for a, b in zip(values, others)]
-        # A value that is no number differs from everything.
-        apart = [float("inf") if d != d else d for d in apart]
-        place = apart.index(max(apart))
-        worst = max(worst, (apart[place], name, before["time"][place]))
+        if a.shape != b.shape or a.dtype.kind not in "bif":
+            return np.inf, name, 0.0
+        a, b = a.astype(float).reshape(len(a), -1), b.astype(float).reshape(len(b), -1)
+        apart = np.nan_to_num(np.abs(a - b) / (np.max(np.abs(a)) or 1.0), nan=np.inf).max(axis=1)
+        worst = max(worst, (float(apart.max()), name, float(before.time[apart.argmax()])))
     return worst
 
 
 def compare(before, after, tolerance=0.0):
-    """Compares two files of results: how far they are apart, and a line that says so. Beyond a tolerance of 0 residuals, which are
-    rounding, and numbers of iterations do not count."""
-    if before.suffix != after.suffix:
-        which, failed = ("BEFORE", before) if before.suffix == ".txt" else ("AFTER", after)
-        return float("inf"), f"{which} failed: {failed.read_text()[-300:]}"
-    if before.read_bytes() == after.read_bytes():
-        return 0.0, "same" if before.suffix == ".csv" else f"both fail: {before.read_text()[-200:]}"
-    if before.suffix == ".txt":
-        return 0.0, "both fail, in other words"
-    distance, name, when = difference(table(before), table(after), ("residual", "iterations") if tolerance else ())
+    """Compares two results: how far they are apart, and a line that says so. Beyond a tolerance of 0 residuals, which are rounding, and
+    numbers of iterations do not count."""
+    if isinstance(before, str) and isinstance(after, str):
+        return 0.0, f"both fail{'' if before == after else ', in other words'}: {before[-200:]}"
+    if isinstance(before, str) or isinstance(after, str):
+        which, said = ("BEFORE", before) if isinstance(before, str) else ("AFTER", after)
+        return np.inf, f"{which} failed: {said[-300:]}"
+    distance, name, when = difference(before, after, ("residual", "iterations") if tolerance else ())
     return distance, f"{distance:.2e}  {name} at {when:g} s" if distance else "same"
-
-
-def digest(binary):
-    """Digest of a binary."""
-    return hashlib.sha256(binary.read_bytes()).hexdigest()[:16]
 
 
 def main():
@@ -208,16 +160,11 @@ def main():
     parser.add_argument("--tolerance", type=float, default=0.0, help="largest relative difference; default: none")
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time")
     options = parser.parse_args()
-    before, after = options.before.resolve(), options.after.resolve()
-    names = [name for name in outputs(before) if name in set(outputs(after))]
-    store = Path(tempfile.gettempdir()) / "wheelrail_same_results" / digest(before)
-    store.mkdir(parents=True, exist_ok=True)
+    warnings.simplefilter("ignore", WheelrailWarning)
     failures = 0
-    with tempfile.TemporaryDirectory() as fresh, ThreadPoolExecutor(options.jobs) as pool:
-        pairs = {
-            case: (pool.submit(run, before, names, case, store), pool.submit(run, after, names, case, Path(fresh)))
-            for case in options.only
-        }
+    with Fmu(options.before) as before, Fmu(options.after) as after, ThreadPoolExecutor(options.jobs) as pool:
+        names = [name for name in outputs(before) if name in set(outputs(after))]
+        pairs = {case: [pool.submit(run, fmu, names, case) for fmu in (before, after)] for case in options.only}
         for case, (first, second) in pairs.items():
             distance, text = compare(first.result(), second.result(), options.tolerance)
             failures += distance > options.tolerance

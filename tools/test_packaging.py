@@ -77,7 +77,7 @@ class Bill(unittest.TestCase):
         cls.components = {entry["bom-ref"]: entry for entry in cls.bill["components"]}
 
     def test_it_lists_what_cargo_links_and_nothing_else(self):
-        library = ["--no-default-features", "--edges", "normal,no-proc-macro", "--target", self.host]
+        library = ["--package", "wheelrail", "--edges", "normal,no-proc-macro", "--target", self.host]
         command = [CARGO, "tree", "--locked", *library, "--prefix", "none"]
         tree = subprocess.run([*command, "--format", "{p}"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
         linked = {tuple(line.split()[:2]) for line in tree.splitlines() if line.strip()}

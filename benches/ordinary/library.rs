@@ -7,7 +7,6 @@ use std::collections::{BTreeMap, HashMap};
 use std::fs::{self, File};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use wheelrail::fmi::v2::description::{self, Extent};
 use zip::ZipArchive;
 
@@ -25,7 +24,7 @@ pub struct Library {
 }
 
 impl Library {
-    /// The library of a file, or the one that was built with this program.
+    /// The library of an FMU, or the one that was built with this program.
     pub fn open(label: &'static str, file: Option<&Path>, settings: &[(String, String)]) -> Result<Library, String> {
         let own = slave::library();
         let path = file.unwrap_or(&own);
@@ -44,10 +43,10 @@ impl Library {
             let (description, resources) = (fmu.join("modelDescription.xml"), Some(fmu.join("resources")));
             return Ok(Library { label, binary, description, resources, cache, settings });
         }
-        let text = match file {
-            Some(_) => described(&path)?,
-            None => description::model_description(Extent::Full).map_err(explained)?,
-        };
+        if file.is_some() {
+            return Err(format!("{}: expected an FMU, which has its model description", path.display()));
+        }
+        let text = description::model_description(Extent::Full).map_err(explained)?;
         let description = place.join("modelDescription.xml");
         fs::write(&description, text).map_err(explained)?;
         Ok(Library { label, binary: path, description, resources: None, cache, settings })
@@ -65,22 +64,6 @@ fn unpack(file: &Path, place: &Path) -> Result<(), String> {
     let mut archive = ZipArchive::new(archive).map_err(|error| explained(&error))?;
     archive.extract(&unfinished).map_err(|error| explained(&error))?;
     fs::rename(&unfinished, place).map_err(|error| explained(&error))
-}
-
-/// The model description that the program beside a shared library prints.
-fn described(library: &Path) -> Result<String, String> {
-    let program = library.with_file_name("wheelrail");
-    let failed = |problem: String| {
-        let [library, program] = [library, &program].map(|path| path.display().to_string());
-        format!(
-            "{library}: its model description comes from `{program} describe`, which failed: {problem}; an FMU has its own"
-        )
-    };
-    let output = Command::new(&program).arg("describe").output().map_err(|error| failed(error.to_string()))?;
-    if !output.status.success() {
-        return Err(failed(String::from_utf8_lossy(&output.stderr).into_owned()));
-    }
-    String::from_utf8(output.stdout).map_err(|error| failed(error.to_string()))
 }
 
 /// Type of a variable, with the values of an enumeration by name.

@@ -6,11 +6,10 @@ use std::path::PathBuf;
 /// Cost of a step in ordinary driving, of the present library beside an older one.
 #[derive(clap::Parser)]
 pub struct Options {
-    /// The older library: a shared library beside its program `wheelrail`, or an FMU; without it the present one runs
-    /// alone.
+    /// The older FMU; without it the present library runs alone.
     #[arg(long, value_name = "FILE")]
     pub before: Option<PathBuf>,
-    /// The present library, likewise; by default the one built with this program.
+    /// The present FMU; by default the library built with this program.
     #[arg(long, value_name = "FILE")]
     pub after: Option<PathBuf>,
     /// Variable of the present library only; may be repeated. What a case itself sets has precedence.

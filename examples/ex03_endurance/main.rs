@@ -12,7 +12,6 @@ mod heap;
 mod scenario;
 
 use clap::Parser;
-use indicatif::{ProgressBar, ProgressStyle};
 use scenario::{Drive, PHASES};
 use std::error::Error;
 use std::time::Instant;
@@ -44,13 +43,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let model = Model::shared(config, &BasisStore::of_user(), &mut |_, _| {})?;
     let mut drive = Drive::new(model, step)?;
 
-    let style = "{wide_bar} {pos}/{len} steps, {msg}, {eta} left";
-    let bar = ProgressBar::new(steps).with_style(ProgressStyle::with_template(style)?);
     let (start, mut memory, mut failures, mut worst) = (Instant::now(), 0, 0u64, 0.0f64);
     for k in 0..steps {
         if let Err(error) = drive.step() {
             failures += 1;
-            bar.println(format!("step {k}, {:?}: {error}", drive.phase));
+            eprintln!("step {k}, {:?}: {error}", drive.phase);
         }
         if drive.cycles > 0 {
             worst = worst.max(drive.simulation.outputs().energy_residual.abs());
@@ -58,12 +55,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         if k == WARM_UP.min(steps.saturating_sub(1)) {
             memory = heap::held();
         }
-        if k % 500 == 0 {
-            bar.set_message(format!("{} cycles, {failures} failures", drive.cycles));
-            bar.set_position(k);
+        if (k + 1).is_multiple_of(100_000) {
+            eprintln!("{} of {steps} steps, {} cycles, {failures} failures", k + 1, drive.cycles);
         }
     }
-    bar.finish_and_clear();
 
     let (wall, outputs) = (start.elapsed().as_secs_f64(), drive.simulation.outputs());
     let growth = (heap::held() - memory) / 1024;

@@ -1,16 +1,19 @@
 """Makes wheelrail_ref.csv from wheelrail_in.csv with the settings of wheelrail_ref.opt: `make describe`.
 
-    python3 examples/reference/make.py --binary target/release/wheelrail
+    .venv/bin/python examples/reference/make.py --fmu target/wheelrail.fmu
 
-The master is that of the command line, in one process with the slave. As in most masters inputs hold over a step the values that
-the table has, linearly between its rows, at the beginning of the step.
+As in most masters inputs hold over a step the values that the table has, linearly between its rows, at the beginning of the step.
 """
 
 import argparse
-import csv
-import subprocess
 from pathlib import Path
-from tempfile import TemporaryDirectory
+
+import numpy as np
+import pandas as pd
+
+import wheelrail
+from wheelrail.fmu import default_path
+from wheelrail.times import at
 
 HERE = Path(__file__).parent
 OUTPUTS = (
@@ -19,38 +22,19 @@ OUTPUTS = (
 )  # fmt: skip
 
 
-def held(rows, step, stop):
-    """The scenario of the command line that holds values: two rows for every step."""
-    times = [row[0] for row in rows]
-    for k in range(round(stop / step)):
-        begin, end = k * step, (k + 1) * step
-        after = next(i for i, time in enumerate(times) if time > begin + 1e-9)
-        share = (begin - times[after - 1]) / (times[after] - times[after - 1])
-        values = [a + share * (b - a) for a, b in zip(rows[after - 1][1:], rows[after][1:])]
-        yield from ([begin, *values], [end, *values])
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--binary", type=Path, default=Path("target/release/wheelrail"))
+    parser.add_argument("--fmu", type=Path, default=default_path(), help="default: %(default)s")
     options = parser.parse_args()
-    with open(HERE / "wheelrail_ref.opt") as file:
-        settings = {name: float(value) for name, value in (line.split(",") for line in file)}
-    with open(HERE / "wheelrail_in.csv") as file:
-        header, *rows = csv.reader(file)
-    rows = [[float(value) for value in row] for row in rows]
+    settings = pd.read_csv(HERE / "wheelrail_ref.opt", header=None, index_col=0)[1]
+    table = pd.read_csv(HERE / "wheelrail_in.csv", index_col="time")
     step, stop = settings["StepSize"], settings["StopTime"]
-    with TemporaryDirectory() as directory:
-        scenario = Path(directory) / "held.csv"
-        with open(scenario, "w", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(header)
-            writer.writerows(held(rows, step, stop))
-        command = [
-            options.binary, "simulate", f"--scenario={scenario}", f"--step={step}", f"--stop={stop}",
-            f"--outputs={','.join(OUTPUTS)}", f"--out={HERE / 'wheelrail_ref.csv'}",
-        ]  # fmt: skip
-        subprocess.run(command, check=True)
+    begins = np.array([at(k, step) for k in range(round(stop / step))])
+    # Two samples for every step, which holds its value.
+    times = np.column_stack([begins, [*begins[1:], stop]]).ravel()
+    inputs = {name: (times, np.repeat(np.interp(begins, table.index, table[name]), 2)) for name in table}
+    run = wheelrail.simulate({}, inputs, stop=stop, step=step, outputs=OUTPUTS, fmu=options.fmu, progress=False)
+    wheelrail.table(run)[list(OUTPUTS)].to_csv(HERE / "wheelrail_ref.csv", lineterminator="\n")
 
 
 if __name__ == "__main__":

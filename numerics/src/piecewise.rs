@@ -205,7 +205,7 @@ pub fn interpolate(x: &[f64], values: &[f64], at: f64) -> f64 {
 /// Value at a position on the piece that ends at node `next`; before the first node its value, after the last its.
 ///
 /// Lets a caller decide on which side of a jump, or within which rounding, a position lies. Zero without nodes.
-pub fn between(x: &[f64], values: &[f64], at: f64, next: usize) -> f64 {
+fn between(x: &[f64], values: &[f64], at: f64, next: usize) -> f64 {
     let last = x.len().min(values.len());
     if next == 0 || next >= last {
         return if last == 0 { 0.0 } else { values[next.clamp(1, last) - 1] };
@@ -213,27 +213,6 @@ pub fn between(x: &[f64], values: &[f64], at: f64, next: usize) -> f64 {
     let (from, to) = (x[next - 1], x[next]);
     let share = ((at - from) / (to - from)).clamp(0.0, 1.0);
     if share == 1.0 { values[next] } else { values[next - 1] + share * (values[next] - values[next - 1]) }
-}
-
-/// Values at both ends of the straight line with the mean and the first moment of a piecewise linear function through
-/// points `[x, value]`, of which there are at least two and whose x ascend. Where the line would leave the range of the
-/// values, it is less steep.
-pub fn straight(points: &[[f64; 2]]) -> [f64; 2] {
-    let (first, last) = (points[0][0], points[points.len() - 1][0]);
-    let (length, middle) = (last - first, 0.5 * (first + last));
-    let (mut sum, mut moment) = (0.0, 0.0);
-    for pair in points.windows(2) {
-        let ([a, v], [b, w]) = (pair[0], pair[1]);
-        sum += 0.5 * (b - a) * (v + w);
-        let (a, b, along) = (a - middle, b - middle, b - a);
-        moment += along / 6.0 * (v * (2.0 * a + b) + w * (a + 2.0 * b));
-    }
-    let values = || points.iter().map(|point| point[1]);
-    let [low, high] = [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)];
-    let mean = (sum / length).clamp(low, high);
-    let most = f64::min(mean - low, high - mean);
-    let half = (6.0 * moment / (length * length)).clamp(-most, most);
-    [mean - half, mean + half]
 }
 
 /// Numbers and weights of the values at ascending nodes in that of the piecewise cubic function that has at every node the slope of

@@ -31,15 +31,6 @@ pub use value::{display_number, display_outside, display_range};
 use dependent::Dependent;
 use value::{Kind, Value};
 
-/// Smallest and largest value of the numeric parameter of that name; without limits if there is none.
-pub fn parameter_range(name: &str) -> [f64; 2] {
-    match Config::rows().iter().find(|row| row.name == name).map(|row| row.kind) {
-        Some(Kind::Real { min, max, .. }) => [min, max],
-        Some(Kind::Integer { min, max }) => [f64::from(min), f64::from(max)],
-        _ => [f64::NEG_INFINITY, f64::INFINITY],
-    }
-}
-
 /// How many names an error message suggests.
 const SUGGESTIONS: usize = 3;
 

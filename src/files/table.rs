@@ -121,7 +121,7 @@ impl<'a> TableRow<'a> {
 }
 
 /// Advice on a cell with commas, which stand in the place of a decimal point or between thousands.
-pub fn comma(cell: &str) -> Option<String> {
+fn comma(cell: &str) -> Option<String> {
     let digits = cell.strip_prefix(['-', '+']).unwrap_or(cell);
     let sign = &cell[..cell.len() - digits.len()];
     let (whole, rest) = digits.split_once('.').map_or((digits, ""), |(whole, _)| (whole, &digits[whole.len()..]));

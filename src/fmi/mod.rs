@@ -2,32 +2,17 @@
 //!
 //! `table` (every variable once) → `settings` (values that a master has set) → `instance` (the wheel as a slave),
 //! `snapshot` (its states as bytes) → `description` (what both descriptions say alike) → `v2` and `v3` (variables,
-//! description and the exported C functions of each version) → `interface` (which of them a packed FMU has) →
-//! `documentation` and `pages` (HTML), `reference` (Markdown), `platform` and `package`, which zips the FMU. HTML and
-//! archive are there with the feature `program` only: the library inside an FMU needs neither. Life cycle, log, states
-//! and C functions are those of the crate [`wheelrail_slave`].
+//! description and the exported C functions of each version) → `interface` (which of them a packed FMU has); `reference`
+//! (Markdown). The crate `wheelrail-pack` makes the archive of it. Life cycle, log, states and C functions are those of the crate [`wheelrail_slave`].
 //!
 //! Sources of all rules: *Functional Mock-up Interface for Model Exchange and Co-Simulation*, version 2.0.4; *Functional
 //! Mock-up Interface Specification*, version 3.0.2.
 
 pub mod description;
-#[cfg(feature = "program")]
-pub mod documentation;
 pub mod instance;
-#[cfg(feature = "program")]
 pub mod interface;
-#[cfg(feature = "program")]
-pub mod package;
-#[cfg(feature = "program")]
-pub mod package_error;
-#[cfg(feature = "program")]
-pub mod pages;
-#[cfg(feature = "program")]
-pub mod platform;
 pub mod presets;
 pub mod reference;
-#[cfg(feature = "program")]
-mod references;
 pub mod settings;
 pub mod snapshot;
 pub mod table;

@@ -19,7 +19,7 @@ pub struct Module {
     code: String,
     /// Path from the root of its crate.
     path: Vec<String>,
-    /// The crate it belongs to: `lib`, `main`, or one of the [`MEMBERS`].
+    /// The crate it belongs to: `lib`, or one of the [`MEMBERS`].
     root: &'static str,
     /// Modules declared in it.
     children: BTreeSet<String>,
@@ -48,7 +48,7 @@ fn member(name: &str) -> Option<&'static str> {
     MEMBERS.iter().map(|(member, _)| *member).find(|member| *member == name)
 }
 
-/// All modules of a crate, its program and its [`MEMBERS`], unit tests left out.
+/// All modules of a crate and its [`MEMBERS`], unit tests left out.
 pub struct SourceMap {
     pub modules: Vec<Module>,
     at: BTreeMap<(&'static str, Vec<String>), usize>,
@@ -58,7 +58,7 @@ pub struct SourceMap {
 const DEPTH: usize = 12;
 
 impl SourceMap {
-    /// Reads the modules of a checkout from `lib.rs` and `main.rs` of every crate on.
+    /// Reads the modules of a checkout from `lib.rs` of every crate on.
     pub fn read(checkout: &Path) -> Self {
         let within = |folder: &str, file: &str| std::fs::read_to_string(checkout.join(folder).join(file)).ok();
         Self::from_files(|file| match MEMBERS.iter().any(|(_, folder)| file.starts_with(folder)) {
@@ -70,7 +70,7 @@ impl SourceMap {
     /// Reads modules and imports from any source of files.
     pub fn from_files(read: impl Fn(&str) -> Option<String>) -> Self {
         let mut map = Self { modules: Vec::new(), at: BTreeMap::new() };
-        for (root, folder) in [("lib", ""), ("main", "")].into_iter().chain(MEMBERS) {
+        for (root, folder) in [("lib", "")].into_iter().chain(MEMBERS) {
             map.add((root, folder), Vec::new(), &read);
         }
         map
@@ -84,7 +84,6 @@ impl SourceMap {
     ) {
         let base = format!("{folder}{}", path.join("/"));
         let candidates = match path.is_empty() {
-            true if root == "main" => vec!["main.rs".to_owned()],
             true => vec![format!("{folder}lib.rs")],
             false => vec![format!("{base}.rs"), format!("{base}/mod.rs")],
         };

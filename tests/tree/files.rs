@@ -80,19 +80,11 @@ fn profiles_that_never_end_are_refused_by_name_and_not_read() {
 }
 
 #[test]
-fn presets_and_scenarios_that_never_end_are_refused_by_name() {
+fn presets_that_never_end_are_refused_by_name() {
     let folder = workplace("endless_presets");
     pipe(&folder.join("railway.json"));
     let refusal = Instance::new(Some(folder.clone()), Log::new(Box::new(|_, _, _| {}), false)).err().unwrap().message;
     assert!(refusal.contains("\"railway\"") && refusal.contains("only regular files"), "{refusal}");
-    let output = Command::new(env!("CARGO_BIN_EXE_wheelrail"))
-        .args(["simulate", "--stop", "1e-3", "--scenario"])
-        .arg(pipe(&folder.join("inputs.csv")))
-        .output()
-        .unwrap();
-    let refusal = String::from_utf8(output.stderr).unwrap();
-    assert!(!output.status.success() && refusal.contains("inputs.csv"), "{refusal}");
-    assert!(refusal.contains("only regular files"), "{refusal}");
 }
 
 #[test]
@@ -236,104 +228,4 @@ fn what_somebody_else_has_saved_meanwhile_is_not_replaced_and_another_path_saves
     wheel.set(&[row.reference], vec![Value::String(other.to_str().unwrap().to_owned())]).unwrap();
     wheel.terminate().unwrap();
     assert_eq!(fs::read_to_string(&other).unwrap(), simulation(&mut wheel).unwrap().wheel_profile_file());
-}
-
-/// The command with these words, in a shell that first carries out `before`, in a folder.
-fn command(folder: &Path, before: &str, words: &[&str]) -> (Option<i32>, String) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let output = Command::new("sh")
-        .args(["-c", &format!("{before}; exec \"$@\""), "sh", env!("CARGO_BIN_EXE_wheelrail")])
-        .args(words)
-        .args(["--resources", root.join("resources").to_str().unwrap()])
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    (output.status.code(), String::from_utf8(output.stderr).unwrap())
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let mut names: Vec<_> =
-        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
-
-#[test]
-fn a_full_disk_costs_the_new_results_only_one_line_and_exit_code_1() {
-    let folder = workplace("full_disk");
-    let cache = Path::new(env!("CARGO_MANIFEST_DIR")).join("target");
-    let cache = cache.to_str().unwrap();
-    fs::write(folder.join("run.csv"), "old").unwrap();
-    // Files of at most one block; the signal that a larger one brings is ignored, as Python does.
-    let limit = "trap '' XFSZ; ulimit -f 1";
-    let run = ["simulate", "--stop", "0.05", "--step", "1e-3", "--cache", cache, "--out", "run.csv"];
-    let small = ["--set", "mesh.elements_per_half_width=4", "--set", "mesh.grid_elements_per_half_width=4"];
-    let words = [&run[..], &small[..]].concat();
-    assert_eq!(command(&folder, "true", &words).0, Some(0), "without a limit, and its basis is kept");
-    fs::write(folder.join("run.csv"), "old").unwrap();
-    let (code, told) = command(&folder, limit, &words);
-    println!("{told}");
-    assert_eq!((code, told.lines().count()), (Some(1), 1), "{told}");
-    assert!(told.contains("run.csv cannot be written") && told.contains("os error 27"), "{told}");
-    assert_eq!(fs::read_to_string(folder.join("run.csv")).unwrap(), "old");
-    assert_eq!(names(&folder), ["run.csv"]);
-    let (code, told) = command(&folder, "true", &["simulate", "--out", "run.csv", "--wheel-profile", "./run.csv"]);
-    assert!(code == Some(2) && told.contains("--wheel-profile are one file"), "{told}");
-}
-
-#[test]
-fn relative_paths_begin_where_the_user_is_and_a_missing_file_is_told_with_both_places() {
-    let folder = workplace("relative");
-    fs::write(folder.join("mine.csv"), "position,height\n0,0\n1,1\n").unwrap();
-    // A file that is found is judged: its height is refused, with its place.
-    let words = ["steady", "--cache", "target", "--set", "rail.profile=mine.csv"];
-    let (code, told) = command(&folder, "true", &words);
-    let place = folder.join("mine.csv").display().to_string();
-    assert!(code == Some(2) || code == Some(1), "{told}");
-    assert!(told.contains(&place) && told.contains("height = 1 m"), "{told}");
-    for parameter in ["rail.profile", "wheel.profile", "contact.rows"] {
-        let shape = if parameter == "contact.rows" { "rows" } else { "line" };
-        let [shape, file] = [format!("contact.shape={shape}"), format!("{parameter}=none.csv")];
-        let words = ["steady", "--set", &shape, "--set", &file];
-        let (_, told) = command(&folder, "true", &words);
-        println!("{told}");
-        let resources = Path::new(env!("CARGO_MANIFEST_DIR")).join("resources/none.csv").display().to_string();
-        for word in [parameter, &folder.join("none.csv").display().to_string(), &resources, "working directory"] {
-            assert!(told.contains(word), "{word} is missing in {told}");
-        }
-    }
-}
-
-#[test]
-fn a_cache_that_is_missing_is_made_cleared_of_old_leftovers_or_said_to_be_out_of_reach() {
-    let folder = workplace("caches");
-    let words = ["steady", "--cache", "nowhere", "--creepage", "0.001", "--set", "mesh.elements_per_half_width=4"];
-    let small = ["--set", "solver.modes_wheel=6", "--set", "solver.modes_rail=4"];
-    let words = [&words[..], &small[..]].concat();
-    let (code, told) = command(&folder, "export WHEELRAIL_CACHE=$PWD/new/cache", &words);
-    assert_eq!(code, Some(0), "{told}");
-    let bases = folder.join("new/cache/basis");
-    let kept = names(&bases);
-    assert!(kept.len() == 1 && kept[0].ends_with(".bin"), "{kept:?}");
-    // The next writer removes what a killed one has left long ago, and nothing else.
-    let key = kept[0].trim_end_matches(".bin");
-    let [old, new] = [format!("{key}.12-ThreadId(1)"), format!("{key}.bin.12-0.unfinished")];
-    for name in [&old, &new] {
-        File::create(bases.join(name)).unwrap();
-    }
-    let long_ago = std::time::SystemTime::now() - std::time::Duration::from_secs(7200);
-    File::options().write(true).open(bases.join(&old)).unwrap().set_modified(long_ago).unwrap();
-    fs::remove_file(bases.join(&kept[0])).unwrap();
-    assert_eq!(command(&folder, "export WHEELRAIL_CACHE=$PWD/new/cache", &words).0, Some(0));
-    assert_eq!(names(&bases), [kept[0].clone(), new]);
-    fs::write(folder.join("file"), "").unwrap();
-    for (cache, said) in [("WHEELRAIL_CACHE=$PWD/file/x", "cannot be kept"), ("WHEELRAIL_CACHE=", "")] {
-        let (code, told) = command(&folder, &format!("export {cache}"), &words);
-        let warnings: Vec<_> = told.lines().filter(|line| line.contains("basis")).collect();
-        println!("{warnings:?}");
-        assert_eq!((code, warnings.len()), (Some(0), usize::from(!said.is_empty())), "{told}");
-        assert!(warnings.iter().all(|line| line.contains(said) && line.contains("WHEELRAIL_CACHE")), "{told}");
-    }
-    let (_, told) = command(&folder, "unset WHEELRAIL_CACHE XDG_CACHE_HOME; export HOME=$PWD/nobody", &words);
-    assert!(told.contains("is not kept") && told.contains("no home directory"), "{told}");
 }

@@ -7,9 +7,5 @@ mod source_map;
 
 mod architecture;
 mod basis_code;
-mod command_line;
-mod command_signals;
-mod documentation;
 mod documents;
 mod files;
-mod package;

@@ -2,9 +2,6 @@
 //! of the European specification for freight wagons (21 ‰ over 40 km).
 
 use crate::common::*;
-use std::fs;
-use std::path::Path;
-use std::process::Command;
 use wheelrail::config::{Config, CrossSection};
 use wheelrail::simulation::{Inputs, Outputs, Rotation, Simulation, Translation};
 
@@ -138,47 +135,6 @@ fn a_long_slide_does_not_depend_on_the_step() {
             assert!((a / b - 1.0).abs() < 0.01, "{a} against {b}");
         }
     }
-}
-
-/// From outside: one row of the scenario a minute.
-#[test]
-fn the_command_line_brakes_for_34_minutes_in_steps_of_minutes() {
-    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("drag_braking");
-    fs::create_dir_all(&directory).unwrap();
-    let moment = -POWER / (SPEED / 0.46);
-    let row = |time: f64, moment: f64, heat: f64| format!("{time},velocity,moment,{SPEED},{moment},{heat}\n");
-    let scenario = format!(
-        "time,control.translation,control.rotation,drive.velocity,drive.moment,drive.tread_heat\n{}{}{}{}",
-        row(0.0, 0.0, 0.0),
-        row(60.0, 0.0, 0.0),
-        row(60.0, moment, POWER),
-        row(60.0 + DURATION, moment, POWER)
-    );
-    let path = directory.join("scenario.csv");
-    fs::write(&path, scenario).unwrap();
-    let bulk = |step: &str| {
-        let output = Command::new(env!("CARGO_BIN_EXE_wheelrail"))
-            .current_dir(env!("CARGO_MANIFEST_DIR"))
-            .args(["simulate", "--scenario", path.to_str().unwrap(), "--step", step])
-            .args(["--set", &format!("initial.velocity={SPEED}"), "--set", "solver.max_step=500"])
-            .args([
-                "--set",
-                "mesh.elements_per_half_width=10",
-                "--outputs",
-                "temperature.wheel_bulk,solver.heat_residual",
-            ])
-            .output()
-            .unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let text = String::from_utf8(output.stdout).unwrap();
-        let last: Vec<f64> = text.lines().last().unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
-        println!("steps of {step} s: {:.2} °C at {} s", celsius(last[1]), last[0]);
-        assert!((last[0] - 60.0 - DURATION).abs() < 1e-6 && last[2].abs() < 1e-6);
-        last[1]
-    };
-    let [minute, second] = [bulk("60"), bulk("1")];
-    assert!((250.0..450.0).contains(&celsius(minute)));
-    assert!(((minute - second) / (second - 293.0)).abs() < 0.01);
 }
 
 /// Steel so hot yields, and its pressure moves the lever arms of the moment in every step.

@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod body_fields;
 mod bounce;
 mod brake;
 mod corrugation;

@@ -1,5 +1,5 @@
-"""Command line: `wheelrail` or `python -m wheelrail` with `train|sweep|ssp SCENARIO`, `steady`, `patch WHEEL RAIL`, `report|export RUN`,
-`schema KIND`, `completion SHELL`; what results say: see `analysis`."""
+"""Command line: `wheelrail` or `python -m wheelrail` with `simulate`, `steady`, `train|sweep|ssp SCENARIO`, `patch WHEEL RAIL`,
+`report|export RUN`, `schema KIND`, `completion SHELL`; what results say: see `analysis`."""
 
 import json
 import logging
@@ -10,7 +10,7 @@ import time
 from contextlib import ExitStack, redirect_stderr, redirect_stdout, suppress
 from pathlib import Path
 
-from . import __version__, analysis, completion, damage, operating, paraview, patch_table
+from . import __version__, analysis, completion, damage, paraview, patch_table, run_commands
 from . import scenario as scenarios
 from .compare import Died
 from .controllers import ControllerFailed
@@ -29,11 +29,20 @@ from .wheelset import patches_of
 
 
 # Commands that need no scenario, by the modules that run them.
-ON_RECORDS = {"report": page, "steady": operating, "damage": damage, "export": paraview, "patch": patch_table}
+WITHOUT = {"simulate": run_commands, "steady": run_commands, "report": page, "damage": damage, "export": paraview, "patch": patch_table}
 LEVELS = ("debug", "info", "warning")
-# Commands of the program in Rust, which is not part of this package, and options by which it knows those of the same name.
-OF_RUST = ("simulate", "describe", "pack")
-WHOLE_BODIES = ("--scenario", "--creepage", "--velocity", "--every", "--stop", "--preset", "--set")  # options of its `export`
+# What the earlier program in Rust took under the same name, and what does so now: commands, and options of commands.
+BODIES = "{} is not about the patch of a record: fields in the whole bodies are written by cargo run --release --example fields in a checkout"
+PLACES = {
+    "--resources": "--resources is no option any more: presets are those of the FMU; wheelrail-pack pack --resources DIR makes one of others for --fmu",
+    "--cache": "--cache is no option any more: the variable WHEELRAIL_CACHE names the folder in which computed bases are kept",
+}
+PACKER = "{0} is a command of wheelrail-pack, which cargo build --release makes in a checkout: target/release/wheelrail-pack {0}"
+MOVED = {name: PACKER.format(name) for name in ("pack", "describe")} | {
+    "export": dict.fromkeys(("--scenario", "--creepage", "--velocity", "--every", "--stop", "--preset", "--set"), BODIES),
+    "simulate": PLACES,
+    "steady": PLACES,
+}
 
 
 def called():
@@ -44,7 +53,7 @@ def called():
 
 def parser():
     """What the command line takes."""
-    made = completion.Parser(prog=called(), description="A train brakes; what results say.")
+    made = completion.Parser(prog=called(), description="A wheel rolls, a train brakes; what results say.")
     made.add_argument("--version", action="version", version=f"wheelrail {__version__}")
     commands = made.add_subparsers(dest="command", required=True)
     for name, about in (("train", "one stop dry, with and without slide protection"), ("sweep", "many stops")):
@@ -62,7 +71,7 @@ def parser():
     ssp.add_argument("--stop", type=float, default=10.0, help="end of the default experiment [s], default %(default)g")
     schema = commands.add_parser("schema", help="JSON Schema of a kind of file")
     schema.add_argument("kind", choices=list(scenarios.SCHEMAS))
-    for others in (operating, analysis, page, damage, paraview, patch_table, completion):
+    for others in (run_commands, analysis, page, damage, paraview, patch_table, completion):
         others.add_command(commands)
     for command in commands.choices.values():
         command.add_argument("--version", action="version", version=f"wheelrail {__version__}")
@@ -82,16 +91,15 @@ def add_stop(command):
 
 
 def arguments(argv=None):
-    """Command line. What only the program in Rust has is refused by name."""
+    """Command line. What another program does now is refused by name."""
     made, given = parser(), sys.argv[1:] if argv is None else argv
     made.wanted = next(iter(given), "")
-    of_rust = made.wanted in OF_RUST or made.wanted == "export" and any(option in given for option in WHOLE_BODIES)
-    if of_rust:
-        what = "export of whole bodies" if made.wanted == "export" else made.wanted
-        made.error(
-            f"{what} is a command of the program in Rust, target/release/wheelrail of a checkout; in Python, wheelrail.simulate() "
-            "computes a run, and the commands are " + ", ".join(name for name in completion.options_of(made) if name)
-        )
+    moved = MOVED.get(made.wanted, {})
+    if isinstance(moved, str):
+        made.error(moved)
+    for option in (word.partition("=")[0] for word in given):
+        if option in moved:
+            made.error(moved[option].format(option))
     return made.parse_args(argv)
 
 
@@ -267,8 +275,8 @@ def run(options):
     if options.command in analysis.COMMANDS:
         analysis.run(options)
         return
-    if options.command in ON_RECORDS:
-        ON_RECORDS[options.command].run(options)
+    if options.command in WITHOUT:
+        WITHOUT[options.command].run(options)
         return
     scenario = scenarios.load(options.scenario)
     if options.command == "ssp":

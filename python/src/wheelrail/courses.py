@@ -4,7 +4,7 @@ An input that varies is straight between its samples; a choice holds. Two sample
 whatever the step is: a step is divided there. What varies otherwise within a step acts as the straight line with the same
 mean and the same first moment, so that no impulse is lost. Velocities and heights move to their value at the end of a step;
 of those it is said how many samples are not seen. The height of a rail is a smooth curve, and has its rate at the end of a step
-unless that is an input, too. The command line does the same with its scenarios.
+unless that is an input, too.
 """
 
 from bisect import bisect_left, bisect_right
@@ -14,7 +14,7 @@ from numbers import Number
 from .samples import samples_of
 from .smooth import Spline
 from .units import TIMES, agreed, beside, named
-from .values import Refused, short, to_fmu
+from .values import Refused, to_fmu
 
 ROUNDING = 1e-9  # s: shorter times than this are rounding
 SHORTEST = 1e-6  # s: steps are divided into no shorter ones

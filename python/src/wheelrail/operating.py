@@ -1,26 +1,19 @@
 """Stationary rolling: forces over creepage, of an FMU that is only started and never stepped.
 
-`steady` gives a Dataset over the creepage; `python -m wheelrail steady` prints it as a CSV. The numbers are those of the program
-in Rust.
+`steady` gives a Dataset over the creepage; `wheelrail steady` prints it as a CSV.
 """
 
 from __future__ import annotations
 
-import csv
-import io
-import sys
-from argparse import ArgumentTypeError, Namespace
+from argparse import ArgumentTypeError
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .files import BadFile
-from .fmu import Fmu, Wheel, default_path
-from .opened import fmu_file
-from .output import write
+from .fmu import Fmu, Wheel
 from .records import attributes, library
 from .units import UnitError, beside, converted, headed
 from .values import Refused, check_names, short
@@ -86,7 +79,8 @@ def steady(
 
     `creepage` is 2 (V − rΩ)/(V + rΩ), positive when braking: by itself 16 points up to 1.5 times Carter's full slip μa/R.
     `velocity` [m/s] is `initial.velocity` if it is not given. `outputs` are names of outputs. Temperatures are those that the
-    wheel has after long rolling. A state that is refused raises `Refused`.
+    wheel has after long rolling. A state that is refused raises `Refused`; what ends a curve half-way carries its beginning as its
+    attribute `run`.
     """
     xarray = library("xarray")
     names = list(OUTPUTS) if outputs is None else [outputs] if isinstance(outputs, str) else list(outputs)
@@ -98,16 +92,25 @@ def steady(
         wheel = stack.enter_context(OperatingPoint(opened, parameters, inputs))
         speed = _speed(wheel, velocity)
         places = _range(wheel, speed) if creepage is None else _creepages(creepage)
-        rows = []
-        for place in places:
-            wheel.roll(speed, place)
-            rows.append(np.atleast_1d(wheel.get(*names)))
-        columns = np.array(rows, float).T
         about = {name: attributes(opened.variable(name)) for name in (*names, "contact.creepage")}
-        data = {name: ("creepage", column, about[name]) for name, column in zip(names, columns)}
-        over = {"creepage": ("creepage", np.asarray(places, float), about["contact.creepage"])}
         attrs = {"velocity": speed, "preset": wheel.get("preset"), "fmu_version": opened.description.version or ""}
-        return xarray.Dataset(data, over, attrs)
+        rows = []
+
+        def curve():
+            columns = np.array(rows, float).reshape(len(rows), len(names)).T
+            data = {name: ("creepage", column, about[name]) for name, column in zip(names, columns)}
+            over = {"creepage": ("creepage", np.asarray(places, float)[: len(rows)], about["contact.creepage"])}
+            return xarray.Dataset(data, over, attrs)
+
+        try:
+            for place in places:
+                wheel.roll(speed, place)
+                rows.append(np.atleast_1d(wheel.get(*names)))
+        except BaseException as failure:
+            if rows:
+                failure.run = curve()
+            raise
+        return curve()
 
 
 def _speed(wheel: Wheel, velocity: float | None) -> float:
@@ -156,55 +159,3 @@ def ranged(text: str) -> np.ndarray:
         return _creepages(np.linspace(float(first), float(last), int(count)))
     except ValueError as error:
         raise ArgumentTypeError(f"{text!r}: expected one number or FROM:TO:COUNT ({error})") from None
-
-
-def setting(text: str) -> tuple[str, object]:
-    """Name and value of NAME=VALUE: a number where it is one, else the text."""
-    name, sign, value = text.partition("=")
-    if not sign:
-        raise ArgumentTypeError(f"{text!r}: expected NAME=VALUE")
-    try:
-        return name.strip(), float(value)
-    except ValueError:
-        return name.strip(), value.strip()
-
-
-def add_command(commands: Any) -> None:
-    """Adds the command to those of `wheelrail`."""
-    command = commands.add_parser("steady", help="stationary rolling: forces over creepage, or one operating point")
-    command.add_argument("--preset", help="parameter set, default railway")
-    command.add_argument("--velocity", type=float, help="[m/s], default: initial.velocity")
-    command.add_argument("--creepage", type=ranged, help="one, or FROM:TO:COUNT; default: up to 1.5 times Carter's full slip")
-    command.add_argument("--set", dest="settings", type=setting, action="append", default=[], metavar="NAME=VALUE", help="a parameter or input")
-    command.add_argument("--out", type=Path, help="CSV file, default: standard output")
-    command.add_argument("--fmu", type=Path, default=default_path(), help="default: %(default)s")
-
-
-def run(options: Namespace) -> None:
-    """Prints or writes the curve; with a file another one beside it says units and meanings."""
-    with Fmu(fmu_file(options.fmu, " or with --fmu")) as fmu:
-        given = {name: _converted(fmu, name, value) for name, value in options.settings}
-        inputs = {name: value for name, value in given.items() if fmu.variable(name).causality == "input"}
-        parameters = {name: value for name, value in given.items() if name not in inputs}
-        parameters |= {"preset": options.preset} if options.preset else {}
-        try:
-            curve = steady(parameters, inputs, creepage=options.creepage, velocity=options.velocity, fmu=fmu)
-        except ValueError as error:
-            raise BadFile(str(error)) from None
-    names = list(curve.data_vars)
-    rows = zip(*(curve[name].values for name in names))
-    text = io.StringIO()
-    csv.writer(text).writerows([names, *([f"{value:.9g}" for value in row] for row in rows)])
-    if options.out is None:
-        sys.stdout.write(text.getvalue())
-        return
-    write(options.out, text.getvalue())
-    print(f"written: {options.out}")
-
-
-def _converted(fmu: Fmu, name: str, value: object) -> object:
-    """A value of the command line as its variable takes it: flags and whole numbers."""
-    kind = fmu.variable(name).type
-    if kind == "Boolean" and value in ("true", "false"):
-        return value == "true"
-    return int(value) if kind == "Integer" and isinstance(value, float) and value.is_integer() else value

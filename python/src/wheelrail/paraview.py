@@ -2,7 +2,7 @@
 
     python -m wheelrail export run.nc --out film    # open film/patch.pvd
 
-Displacement, stress and temperature of the whole bodies are written by the program in Rust (`export` there).
+Displacement, stress and temperature of the whole bodies: `cargo run --release --example fields` in a checkout.
 """
 
 from __future__ import annotations

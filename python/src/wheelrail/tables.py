@@ -1,8 +1,8 @@
 """Tables as text (CSV): a line of names, and below it lines with one cell for each name.
 
 Cells are separated by commas, numbers have decimal points. Blank lines and lines that begin with `#` are skipped, a mark of
-byte order and any ending of lines are taken, cells may stand in quotes. Everything else is refused, with line and column. The
-command line and profiles of rails and wheels read their files by the same rules.
+byte order and any ending of lines are taken, cells may stand in quotes. Everything else is refused, with line and column. Profiles
+of rails and wheels are read by the same rules.
 """
 
 from __future__ import annotations

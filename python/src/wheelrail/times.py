@@ -2,7 +2,7 @@
 
 Sums of steps in floating point miss them: 9 steps of .001 s are .009000000000000001 s. Who looks a time up, or lays two runs over each
 other, means .009 s. A time and a step are therefore what their shortest decimals say, or a simple fraction such as a third, and are
-added as such. The command line does the same (`src/cli/clock.rs`).
+added as such.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
 //! Platforms with their names in both versions of FMI, and shared libraries compiled for them.
 
-use super::MODEL_IDENTIFIER;
-use super::interface::Interface;
-use super::package_error::PackageError;
-use crate::files;
+use super::error::PackageError;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+use wheelrail::files;
+use wheelrail::fmi::MODEL_IDENTIFIER;
+use wheelrail::fmi::interface::Interface;
 
 /// A platform for which the standard has a name.
 #[derive(Debug, PartialEq, Eq)]
@@ -130,8 +130,8 @@ impl FromStr for Binary {
 
 #[cfg(test)]
 mod tests {
-    use super::super::v2::description::Extent;
     use super::*;
+    use wheelrail::fmi::v2::description::Extent;
 
     const TWO: Interface = Interface::Two(Extent::Full);
 

@@ -5,15 +5,16 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 use wheelrail::fmi::interface::Interface;
-use wheelrail::fmi::package::{self, Contents};
-use wheelrail::fmi::platform::Binary;
 use wheelrail::fmi::v2::description::Extent;
 use wheelrail::fmi::v2::variables::variables;
+use wheelrail::fmi::variable::Causality;
+use wheelrail_pack::package::{self, Contents};
+use wheelrail_pack::platform::Binary;
 use zip::ZipArchive;
 
 /// Text files of the folder `documentation`, and the names of all.
 fn documentation() -> (BTreeMap<String, String>, BTreeSet<String>) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
     let directory =
         Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("documentation {:?}", std::thread::current().id()));
     fs::create_dir_all(&directory).unwrap();
@@ -68,7 +69,7 @@ fn every_page_of_the_theory_is_in_the_package_and_linked_from_its_first_page() {
     let (texts, _) = documentation();
     let index: BTreeSet<&str> = targets(&texts["index.html"]).collect();
     let mut pages = 0;
-    for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/theory")).unwrap() {
+    for entry in fs::read_dir(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/theory")).unwrap() {
         let path = entry.unwrap().path();
         let stem = path.file_stem().unwrap().to_str().unwrap();
         let name = format!("theory/{}.html", if stem == "README" { "index" } else { stem });
@@ -144,4 +145,15 @@ fn variables_that_the_first_page_names_exist() {
         }
     }
     assert!(count > 60, "{count}");
+}
+
+#[test]
+fn the_first_page_has_every_parameter_in_a_row_of_its_own() {
+    let (texts, _) = documentation();
+    let text = &texts["index.html"];
+    let places = ["Basic parameters", "Expert parameters", "Retired parameters"].map(|title| text.find(title).unwrap());
+    assert!(places.is_sorted());
+    for variable in variables().iter().filter(|variable| variable.causality() == Causality::Parameter) {
+        assert_eq!(text.matches(&format!("<code>{}</code></td>", variable.name)).count(), 1, "{}", variable.name);
+    }
 }

@@ -2,10 +2,10 @@
 //!
 //! Source: *Layered Standard References (FMI-LS-REF)*, 1.0.0-alpha.1; *System Structure and Parameterization*, 1.0.
 
-use super::description::{XmlText, empty};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;
+use wheelrail::fmi::description::{XmlText, empty};
 
 /// Folder of the standard in an FMU.
 const FOLDER: &str = "extra/org.fmi-standard.fmi-ls-ref";

@@ -1,14 +1,14 @@
 //! `documentation/index.html` of the FMU: conventions with a figure, use, the table of variables, and links to all
 //! [`pages`](super::pages).
 
-use super::interface::Interface;
 use super::pages::{Page, escaped, pages};
-use super::presets;
-use super::reference::{self, Cells, RETIREMENT, SECTIONS};
-use super::table::enumerations;
-use super::variable::Variable;
-use crate::config::retired::{RETIRED, Retired};
 use std::fmt::Write;
+use wheelrail::config::retired::{RETIRED, Retired};
+use wheelrail::fmi::interface::Interface;
+use wheelrail::fmi::presets;
+use wheelrail::fmi::reference::{self, Cells, RETIREMENT, SECTIONS};
+use wheelrail::fmi::table::enumerations;
+use wheelrail::fmi::variable::Variable;
 
 /// Text before the tables.
 const INTRODUCTION: &str = include_str!("../../docs/fmu.html");

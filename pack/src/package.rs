@@ -1,16 +1,16 @@
 //! The FMU as a zip archive.
 
-use super::MODEL_IDENTIFIER;
 use super::documentation::index_html;
-use super::interface::Interface;
-use super::package_error::PackageError;
+use super::error::PackageError;
 use super::pages::{PICTURES, pages};
 use super::platform::{Binary, read};
 use super::references;
-use crate::files::NewFile;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use wheelrail::files::NewFile;
+use wheelrail::fmi::MODEL_IDENTIFIER;
+use wheelrail::fmi::interface::Interface;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 

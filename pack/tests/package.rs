@@ -1,13 +1,14 @@
 //! The archive: binaries of several platforms, refusals, reproducible bytes.
 
+use std::env;
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use wheelrail::fmi::interface::Interface;
-use wheelrail::fmi::package::{self, Contents};
-use wheelrail::fmi::platform::{self, Binary};
 use wheelrail::fmi::v2::description::Extent;
+use wheelrail_pack::package::{self, Contents};
+use wheelrail_pack::platform::{self, Binary};
 use zip::ZipArchive;
 
 /// An empty directory for one test.
@@ -18,9 +19,20 @@ fn workplace(name: &str) -> PathBuf {
     directory
 }
 
+/// The program, beside the folder of the tests. (Shells pass no variables with a hyphen on, such as that of cargo.)
+fn program() -> PathBuf {
+    env::current_exe()
+        .unwrap()
+        .ancestors()
+        .nth(2)
+        .unwrap()
+        .join("wheelrail-pack")
+        .with_extension(env::consts::EXE_EXTENSION)
+}
+
 /// Contents with the given libraries, without precomputed bases.
 fn contents(binaries: Vec<Binary>) -> Contents {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
     Contents {
         interface: Interface::Two(Extent::Full),
         binaries,
@@ -128,7 +140,7 @@ fn a_missing_library_is_named() {
 #[test]
 fn the_command_line_refuses_unknown_platforms_with_the_list_of_known_ones() {
     let pack = |binary: &str| {
-        let output = Command::new(env!("CARGO_BIN_EXE_wheelrail")).args(["pack", "--binary", binary]).output().unwrap();
+        let output = Command::new(program()).args(["pack", "--binary", binary]).output().unwrap();
         assert!(!output.status.success());
         String::from_utf8(output.stderr).unwrap()
     };
@@ -138,12 +150,26 @@ fn the_command_line_refuses_unknown_platforms_with_the_list_of_known_ones() {
 }
 
 #[test]
+fn commands_of_the_earlier_program_are_refused_with_what_does_now_what_they_did() {
+    for (command, words) in
+        [("simulate", "wheelrail simulate"), ("steady", "wheelrail steady"), ("export", "--example fields")]
+    {
+        let output = Command::new(program()).args([command, "--stop", "1"]).output().unwrap();
+        let refusal = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            output.status.code() == Some(2) && refusal.contains(words) && refusal.lines().count() == 1,
+            "{refusal}"
+        );
+    }
+}
+
+#[test]
 fn a_binary_named_for_this_machine_takes_the_place_of_the_library() {
     let directory = workplace("named");
     let (own, fmu) = (platform::own_platform().unwrap().three, directory.join("named.fmu"));
     let (_, text) = library(&directory, own);
-    let output = Command::new(env!("CARGO_BIN_EXE_wheelrail"))
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
+    let output = Command::new(program())
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
         .arg("pack")
         .args(["--library", "nowhere.so", "--binary", &format!("{own}={}", directory.join(own).display())])
         .args(["--resources".as_ref(), directory.as_os_str(), "--out".as_ref(), fmu.as_os_str()])
@@ -161,11 +187,23 @@ fn a_binary_named_for_this_machine_takes_the_place_of_the_library() {
 
 #[test]
 fn licences_of_all_linked_crates_are_in_the_archive() {
-    let listed = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/LICENSE-THIRD-PARTY")).unwrap();
+    let listed =
+        fs::read_to_string(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/LICENSE-THIRD-PARTY"))
+            .unwrap();
     let tree = Command::new(env!("CARGO"))
-        .args(["tree", "--edges", "normal,no-proc-macro", "--prefix", "none", "--offline", "--locked"])
+        .args([
+            "tree",
+            "--package",
+            "wheelrail",
+            "--edges",
+            "normal,no-proc-macro",
+            "--prefix",
+            "none",
+            "--offline",
+            "--locked",
+        ])
         .args(["--format", "{p}", "--target", "x86_64-unknown-linux-gnu"])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
         .output()
         .unwrap();
     assert!(tree.status.success(), "{}", String::from_utf8_lossy(&tree.stderr));
