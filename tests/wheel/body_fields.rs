@@ -1,6 +1,5 @@
 //! Fields in the whole bodies against contact mechanics and against the outputs of the same state.
 
-
 use crate::common::{figure, model, prescribed, preset};
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
 use wheelrail::config::{Config, Response, StartTemperature};
