@@ -97,7 +97,7 @@ PLATFORMS := $(VENV)/.platforms
 SITE := $(VENV)/.site
 SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml contact/Cargo.toml numerics/Cargo.toml pack/Cargo.toml slave/Cargo.toml \
 	$(shell find src contact/src numerics/src pack/src slave/src resources docs/theory -type f) \
-	docs/fmu.html docs/page.html docs/style.css docs/profiles.md docs/patches.md docs/coupling.md docs/validation.md docs/speed.md \
+	docs/fmu.html docs/page.html docs/style.css docs/profiles.md docs/patches.md docs/coupling.md docs/your-controller-as-an-fmu.md docs/what-the-next-wheel-meets.md docs/validation.md docs/speed.md \
 	docs/flat.png docs/hunting.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
 

@@ -17,10 +17,12 @@ macro_rules! files {
 }
 
 /// The pages, in the order in which they are read.
-const PAGES: [(&str, &str); 27] = files![include_str:
+const PAGES: [(&str, &str); 29] = files![include_str:
     "profiles.md",
     "patches.md",
     "coupling.md",
+    "your-controller-as-an-fmu.md",
+    "what-the-next-wheel-meets.md",
     "versions.md",
     "theory/README.md",
     "theory/ale-balance.md",

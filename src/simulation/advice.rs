@@ -48,6 +48,13 @@ pub fn failed_start(error: &StepError, config: &Config, inputs: &Inputs) -> Stri
                 ))
             })
         }
+        StepError::BeyondAdhesion { asked, load, .. }
+            if config.initial.temperature.is_stationary()
+                && asked.abs() < inputs.drive.friction * load =>
+        {
+            // What endless heat has softened, gentler forces do not meet.
+            unsettled(start::gentler(config, inputs), config)
+        }
         StepError::BeyondAdhesion { .. } => {
             "start with gentler drive.moment, drive.force and drive.lateral_force and bring them to their values in the first \
              steps, or set initial.creepage: then the run starts sliding, and the force that adhesion does not carry accelerates it"
