@@ -150,7 +150,7 @@ PROGRAM = (
     Recipe("wheelrail steady --preset paper_d --creepage -1e-3:1e-3:41 > curve.csv && head -2 curve.csv",
         ("wheelrail steady --preset paper_d --creepage -1e-3:1e-3:41 > curve.csv",), "creepage",
     ),  # fmt: skip
-    Recipe("wheelrail export --creepage 2e-3 --set mesh.elements_per_half_width=5 --set physics.thermal_expansion=false --out fields && ls fields", ("wheelrail export --creepage 2e-3 --out fields",), "fields.vtm"),
+    Recipe("wheelrail export --creepage 2e-3 --set mesh.elements_per_half_width=5 --set material.expansion=0 --out fields && ls fields", ("wheelrail export --creepage 2e-3 --out fields",), "fields.vtm"),
     Recipe("wheelrail export --scenario brake.csv --every 5e-3 --set mesh.elements_per_half_width=5 --out film && ls film",
         ("wheelrail export --scenario brake.csv --every 0.05 --out film",), "fields.pvd",
     ),  # fmt: skip

@@ -154,7 +154,7 @@ fn reference_pages_show_some_thirty_basic_parameters_before_the_expert_ones() {
     for name in ["preset", "wheel.radius", "model.nominal_load", "friction.coefficient", "material.density"] {
         assert!(basic.contains(&name), "{name}");
     }
-    assert!(expert.contains(&"solver.modes_wheel"));
+    assert!(expert.contains(&"solver.response"));
     for page in [markdown(), index_html(Interface::Two(Extent::Full))] {
         let at = |text: &str| page.find(text).unwrap_or_else(|| panic!("{text} is missing"));
         let [first, second, retired] = ["Basic parameters", "Expert parameters", "Retired parameters"].map(at);

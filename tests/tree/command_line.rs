@@ -559,7 +559,7 @@ fn export(name: &str, arguments: &[&str]) -> impl Fn(&str) -> Grid + use<> {
 fn exported_stress_without_friction_is_that_of_hertz() {
     let config = small();
     let (a, p0) = hertz(&config);
-    let settings = ["--set", "rail.friction=0", "--set", "physics.centrifugal=false", "--set", "thermal.enabled=false"];
+    let settings = ["--set", "rail.friction=0", "--set", "thermal.enabled=false"];
     let read = export("hertz", &[&settings[..], &["--creepage", "0"]].concat());
     let (wheel, rail) = (read("wheel"), read("rail"));
     assert_eq!(wheel.points.len(), wheel_mesh(&config).unwrap().nodes.len());

@@ -29,7 +29,6 @@ fn pipe(path: &Path) -> &Path {
 
 fn small() -> Config {
     let mut config = common::preset("railway", 4);
-    (config.solver.modes_wheel, config.solver.modes_rail) = (6, 4);
     config.thermal.enabled = false;
     config
 }
@@ -48,7 +47,7 @@ fn prepare(instance: &mut Instance, settings: &[(&str, &Path)]) -> Result<(), Ca
         let row = variables().iter().find(|variable| variable.name == name).unwrap();
         instance.set(&[row.reference], vec![value])
     };
-    let counts = [("mesh.elements_per_half_width", 4), ("solver.modes_wheel", 6), ("solver.modes_rail", 4)];
+    let counts = [("mesh.elements_per_half_width", 4)];
     counts.iter().try_for_each(|(name, count)| set(instance, name, Value::Integer(*count)))?;
     set(instance, "thermal.enabled", Value::Boolean(false))?;
     for (name, path) in settings {
@@ -308,8 +307,6 @@ fn relative_paths_begin_where_the_user_is_and_a_missing_file_is_told_with_both_p
 fn a_cache_that_is_missing_is_made_cleared_of_old_leftovers_or_said_to_be_out_of_reach() {
     let folder = workplace("caches");
     let words = ["steady", "--cache", "nowhere", "--creepage", "0.001", "--set", "mesh.elements_per_half_width=4"];
-    let small = ["--set", "solver.modes_wheel=6", "--set", "solver.modes_rail=4"];
-    let words = [&words[..], &small[..]].concat();
     let (code, told) = command(&folder, "export WHEELRAIL_CACHE=$PWD/new/cache", &words);
     assert_eq!(code, Some(0), "{told}");
     let bases = folder.join("new/cache/basis");
