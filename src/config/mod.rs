@@ -33,7 +33,7 @@ impl Damping {
     /// No damping of vibration modes at all.
     pub const NONE: Self = Self::all(0.0);
 
-    /// The same ratio for all modes of both bodies.
+    /// One ratio for all modes of both bodies.
     pub const fn all(ratio: f64) -> Self {
         Self {
             wheel_torsion: ratio,

@@ -100,6 +100,10 @@ macro_rules! parameters {
             /// Number of parameters.
             pub const COUNT: usize = [$($( $number ),*),*].len();
 
+            /// Names of the fields that are no parameters, in the form `group.name`.
+            pub const INSIDE: &'static [&'static str] =
+                &[$( $( concat!(stringify!($group), ".", stringify!($inner)), )* )*];
+
             /// The row of every parameter, in the order of their numbers.
             #[allow(clippy::needless_update)] // A row may give all its limits.
             pub fn rows() -> &'static [$crate::config::row::Row<$Config>] {
@@ -181,6 +185,7 @@ mod tests {
         let basic: Vec<_> = rows.iter().filter(|row| row.level == Level::Basic).map(|row| row.number).collect();
         assert_eq!(basic, [3, 4, 7]);
         let local = Local::default();
+        assert_eq!(Local::INSIDE, ["head.core"]);
         assert_eq!((local.head.profile.as_str(), local.head.core, local.tuning.width), ("cone", 1.5, 0.07));
         assert!(
             matches!(rows[3].kind, Kind::Real { min: -1.5, max: 2.0, nominal: 0.1, measure } if measure.unit == "m")

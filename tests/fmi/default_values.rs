@@ -158,7 +158,7 @@ fn wear_has_the_numbers_of_its_source_and_mild_wear_has_grown_to_severe_wear_whe
     assert!((grown - 1.0).abs() < 5e-3);
 }
 
-/// What no parameter sets.
+/// Values that no parameter sets.
 #[test]
 fn values_that_are_no_parameters_are_those_of_their_pages() {
     let Config { thermal, physics, solver, .. } = Config::default();

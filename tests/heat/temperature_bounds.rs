@@ -184,17 +184,16 @@ fn temperatures_of_random_parameter_sets_stay_within_their_bounds_or_the_step_is
     assert!(simulated >= sets / 4, "{simulated}");
 }
 
-/// A contact with random patch, pressure and friction heat that lies in the zone of the model.
+/// A contact with random patch and friction heat that lies in the zone of the model.
 fn exchange(c: &HeatConfig, random: &mut Random) -> Exchange {
     let half = c.half_width * random.between(0.3, 1.2).min(0.9 * c.zone / c.half_width);
     let centre = random.sign() * random.between(0.0, 0.9 * c.zone - half);
     let ellipse = |x: f64| (1.0 - ((x - centre) / half).powi(2)).max(0.0).sqrt();
-    let [pressure, power] = [1e9, random.of(&[0.0, 1e7, 1e9, 5e9])];
+    let power = random.of(&[0.0, 1e7, 1e9, 5e9]);
     let profile = |peak: f64| Piecewise::sampled(centre - half, centre + half, 40, |x| peak * ellipse(x));
     let heat = random.of(&[0.0, 0.0, 1e6]);
     Exchange {
         patches: vec![Interval { low: centre - half, high: centre + half }],
-        pressure: profile(pressure),
         friction_power: profile(power),
         friction_excess: random.between(-1.0, 3.0),
         sources: vec![HeatSource::on_tread(random.between(-PI, PI), 0.5, heat)],

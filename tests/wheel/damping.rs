@@ -8,7 +8,7 @@ use wheelrail::config::{Config, Damping, Response};
 use wheelrail::material::Isotropic;
 use wheelrail::mechanics::{Basis, BodyDamping, wheel_mass};
 use wheelrail::rolling::State;
-use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation, Translation};
+use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation};
 
 /// Frictionless wheel under the nominal load.
 fn frictionless(model: &Model, velocity: f64) -> Inputs {
@@ -221,7 +221,7 @@ fn rebound_of_a_dropped_wheel_without_damping_converges_with_the_step_to_one_wit
             let [before, after] = impact(&model, dt, turned);
             1.0 - after / before
         });
-        println!("step {dt}: losses {losses:+.2e}");
+        println!("step {dt}: losses {losses:+.6?}");
         losses.iter().sum::<f64>() / losses.len() as f64
     });
     figure("rebound", &[coarse, middle, fine]);

@@ -21,7 +21,7 @@ struct Numerics {
     step: f64,
 }
 
-/// What is shown, twice its step, and half its elements.
+/// Numerics of what is shown, with twice its step, and with half its elements.
 const SHOWN: Numerics = Numerics { elements: 40, step: 1e-6 };
 const COARSER: [Numerics; 2] = [Numerics { step: 2e-6, ..SHOWN }, Numerics { elements: 20, ..SHOWN }];
 
