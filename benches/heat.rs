@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use wheelrail::config::{ConductanceLaw, Config, Hub};
+use wheelrail::config::{Config, Hub};
 use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatLine, HeatModel, HeatScratch, HeatState, WheelStage};
 use wheelrail::piecewise::Interval;
 use wheelrail::piecewise::Piecewise;
@@ -33,7 +33,7 @@ fn config() -> HeatConfig {
     let material = &mut config.material;
     (material.conductivity, material.specific_heat, material.density) = (45.0, 460.0, 8000.0);
     let thermal = &mut config.thermal;
-    (thermal.conductance_law, thermal.conductance) = (ConductanceLaw::Constant, 1e7);
+    thermal.conductance = 1e7;
     (thermal.heat_ratio, thermal.wheel_share, thermal.convection, thermal.hub) = (0.1, 0.5, 0.0, Hub::Fixed);
     (thermal.max_speed, thermal.smallest_load_ratio) = (SPEED, 1.0);
     config

@@ -62,7 +62,7 @@ CHECKOUT = (
     Recipe("make endurance NAME=parameters ARGS=2", ("make endurance NAME=parameters",), "2 parameter sets"),
     Recipe("cargo run --release --locked -p wheelrail-contact --example strip", says="Carter"),
     Recipe(
-        "cargo run --release --locked --example fields -- --creepage 2e-3 --set mesh.elements_per_half_width=5 --set physics.thermal_expansion=false --out {out}",
+        "cargo run --release --locked --example fields -- --creepage 2e-3 --set mesh.elements_per_half_width=5 --set material.expansion=0 --out {out}",
         ("cargo run --release --example fields", "cargo run --release --example fields -- --creepage 2e-3 --out fields"), "fields.pvd with 1 moments",
     ),
     Recipe(

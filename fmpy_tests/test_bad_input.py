@@ -117,3 +117,5 @@ def test_a_load_beyond_the_contact_zone_names_the_parameter_to_raise(start):
 def test_retired_parameters_are_refused_by_name_with_the_version_that_had_them(fmu):
     with pytest.raises(Refused, match=r"solver.theta was retired in 0.2.0 \(last in 0.1.1\)"):
         Wheel(fmu, {"solver.theta": 0.5})
+    with pytest.raises(Refused, match=r"damping.rayleigh_stiffness was retired in .*set their ratios, damping.wheel_torsion"):
+        Wheel(fmu, {"damping.rayleigh_stiffness": 1e-5})

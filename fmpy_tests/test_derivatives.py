@@ -59,7 +59,7 @@ def test_interface_jacobian_is_that_of_the_last_step(start, control, known, at, 
 def test_creepage_slope_at_the_start_is_that_of_carter(start):
     """In Initialization Mode the derivative is that of stationary rolling: dF/dxi = 2 P R/a for small creepage."""
     inputs = {"control.rotation": "velocity", "control.translation": "velocity", "drive.velocity": 20.0}
-    wheel = start({"initial.velocity": 20.0, "physics.centrifugal": False}, inputs)
+    wheel = start({"initial.velocity": 20.0}, inputs)
     radius, load, half_width = wheel.get("wheel.radius", "contact.force_y", "contact.half_width")
     (slope,) = derivatives(wheel, ["contact.force_x"], ["drive.omega"], [1.0])
     # xi = 2 (V - R omega)/(V + R omega): d xi/d omega = -R/V at xi = 0; braking creepage gives a negative force.

@@ -56,8 +56,6 @@ fn compute_and_unload() {
         ("bases computed, on threads", &|slave| slave.coarsen()),
         ("a patch of many nodes, whose system is solved at once", &|slave| {
             assert_eq!(slave.set_integer("mesh.elements_per_half_width", 12), fmi2OK);
-            assert_eq!(slave.set_integer("solver.modes_wheel", 6), fmi2OK);
-            assert_eq!(slave.set_integer("solver.modes_rail", 4), fmi2OK);
         }),
         ("matrices factorised in steps", &|slave| {
             slave.coarsen();
@@ -95,8 +93,7 @@ fn the_library_goes_whatever_was_computed_in_it() {
 #[test]
 fn the_library_comes_and_goes_a_hundred_times() {
     let _alone = alone();
-    let mut config = common::preset("railway", 4);
-    (config.solver.modes_wheel, config.solver.modes_rail) = (6, 4);
+    let config = common::preset("railway", 4);
     common::model(config);
     let expected = load_run_unload(|slave| slave.coarsen());
     // A region that the operating system turns into one page of two megabytes would look like memory lost.

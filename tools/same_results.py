@@ -77,7 +77,7 @@ CASES = {
     "step": ("railway", {"rail.profile": "step(position = 1.0, height = 5e-5)", "mesh.elements_per_half_width": 10}, {}, 2e-4, 0.05),
     "wear": ("railway", SPEEDS | {"damage.wear": "t_gamma", "initial.creepage": 0.02}, {}, 1e-3, 0.1),
     "worn_locked": ("railway_damage", SPEEDS | {"damage.wear": "t_gamma", "initial.velocity": 10}, locked(10.0), 1e-3, 0.1),
-    "blocks": ("railway", {"thermal.convection": 30, "thermal.emissivity": 0.8}, BLOCKS, 1e-3, 0.3),
+    "blocks": ("railway", {"thermal.convection": 30}, BLOCKS, 1e-3, 0.3),
     "support": (
         "railway",
         {"rail.support_stiffness": 5e7, "rail.support_damping": 5e4, "rail.support_mass": 100, "rail.ends": "nonreflecting"},
@@ -94,6 +94,13 @@ CASES = {
     "ellipse_locked": ("railway_ellipse", {"initial.velocity": 16.7}, BRAKE, 1e-3, 0.2),
     "ellipse_standstill": ("railway_ellipse", DRAWN | {"initial.velocity": 0.5, "initial.creepage": 0}, STANDSTILL, 1e-3, 0.4),
     "rows": ("railway_s1002_3mm", {}, VARYING, 1e-3, 0.1),
+    "sideways": (
+        "railway_ellipse",
+        {"contact.lateral": "true", "control.lateral": "force", "wheel.lateral_mass": 500},
+        {"time": [0, 0.05], "drive.lateral_force": [0, 3000], "drive.spin": [0, 0.05], "drive.moment": [0, -3000]},
+        1e-3,
+        0.05,
+    ),
     "hub_height": (
         "railway",
         {"control.vertical": "displacement"},
@@ -101,7 +108,7 @@ CASES = {
         1e-3,
         0.1,
     ),
-    "hot_wheel": ("railway", {"thermal.wheel_excess": 200, "thermal.conductance_law": "pressure"}, VARYING, 1e-3, 0.2),
+    "hot_wheel": ("railway", {"thermal.wheel_excess": 200}, VARYING, 1e-3, 0.2),
 }
 
 

@@ -280,7 +280,6 @@ impl RigidResponse {
             inertial: &self.inertial,
             momentum: &self.momentum,
             deformation_inertia: &self.deformation_inertia,
-            retarded: [None; 2],
         }
     }
 }

@@ -71,12 +71,11 @@ impl Case {
         let mut values = Vec::new();
         for variable in variables() {
             let changed = random.between(0.0, 1.0);
-            let size = ["mesh.elements_per_half_width", "solver.modes_wheel", "solver.modes_rail"];
             let chosen = match variable.causality() {
                 _ if matches!(variable.access, Access::Preset) => None,
                 Causality::Output => None,
                 _ if plane && lateral(variable.name) => None,
-                Causality::Parameter if coarse && size.contains(&variable.name) => {
+                Causality::Parameter if coarse && variable.name == "mesh.elements_per_half_width" => {
                     Some(Value::Integer(4 + random.below(5) as i32))
                 }
                 Causality::Parameter if variable.name == "solver.response" && coarse => Some(Value::Integer(1)),

@@ -66,14 +66,6 @@ choice! {
 }
 
 choice! {
-    /// Contact conductance law.
-    pub enum ConductanceLaw named "ConductanceLaw", "How the contact conductance depends on pressure" {
-        Constant = "constant", "independent of pressure";
-        Pressure = "pressure", "proportional to pressure^0.95";
-    }
-}
-
-choice! {
     /// Width over which wheel and rail conduct heat.
     pub enum CrossSection named "CrossSection", "How wide the bodies conduct heat" {
         Bodies = "bodies", "spreading from the contact into rim, web, boss and rail head; a free wheel";

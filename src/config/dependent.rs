@@ -18,8 +18,6 @@ pub const CURVATURES: [f64; 2] = [0.01, 50.0];
 const ASPECTS: [f64; 2] = [0.05, 25.0];
 /// Smallest limit of the internal step [s].
 const SHORTEST_LIMIT: f64 = 1e-6;
-/// Largest way of the wheel during the retardation of stiffness-proportional damping [m].
-const LARGEST_RETARDATION: f64 = 0.01;
 
 /// A parameter without meaning.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -199,7 +197,7 @@ fn subsonic(config: &Config) -> [Dependent; 2] {
 }
 
 /// Dampers and masses need a spring beside them, `springs`.
-pub fn beside(config: &Config, name: &'static str, springs: &[&str], most: f64) -> Dependent {
+fn beside(config: &Config, name: &'static str, springs: &[&str], most: f64) -> Dependent {
     let high = if springs.iter().any(|spring| config.number(spring).0 > 0.0) { most } else { 0.0 };
     let given: Vec<_> = springs.iter().map(|spring| config.given(spring)).collect();
     Dependent::of(config, name, [0.0, high], format!("{} (0: rigid)", given.join(" and ")))
@@ -277,19 +275,10 @@ pub fn ranges(config: &Config) -> Vec<Dependent> {
         start_temperature(config),
         // Melting takes place within a range of temperatures.
         simple("material.liquidus", at_least(config.material.solidus + 10.0), "material.solidus"),
-        // Catastrophic wear begins beyond severe wear.
-        simple("damage.wear_catastrophic_from", at_least(config.damage.wear_severe_from), "damage.wear_severe_from"),
         internal_step(config),
         velocity,
         creepage,
         contact_zone(config),
-        // The part of this damping in the stream is lagged, and a stationary state would not be found beyond a way of
-        // a centimetre during the retardation.
-        simple(
-            "damping.rayleigh_stiffness",
-            [0.0, LARGEST_RETARDATION / config.initial.velocity.abs()],
-            "initial.velocity",
-        ),
     ];
     all.extend(track(config));
     all.extend(rows(config));
@@ -359,9 +348,5 @@ mod tests {
         );
         refused(|c| c.tuning.max_step = 5e-7, &["solver.max_step = 5e-7 ", "at least 1e-6 s with 0 as the choice"]);
         refused(|c| c.initial.creepage = Some(f64::NAN), &["initial.creepage = NaN", "-1.99 to 2"]);
-        refused(
-            |c| (c.initial.velocity, c.damping.rayleigh_stiffness) = (150.0, 1e-4),
-            &["damping.rayleigh_stiffness = 0.0001", "6.66667e-5 s with initial.velocity = 150 m/s"],
-        );
     }
 }

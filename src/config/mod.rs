@@ -16,9 +16,7 @@ pub mod table;
 pub mod units;
 pub mod value;
 
-pub use choices::{
-    ConductanceLaw, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear, WheelsetSide,
-};
+pub use choices::{ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear, WheelsetSide};
 pub use dependent::ConfigError;
 pub use nominal::NominalPatch;
 pub use patch_rows::{OnWheel, PatchRows, PatchTable, RowsError};
@@ -30,6 +28,27 @@ pub use value::{display_number, display_outside, display_range};
 
 use dependent::Dependent;
 use value::{Kind, Value};
+
+impl Damping {
+    /// No damping of vibration modes at all.
+    pub const NONE: Self = Self::all(0.0);
+
+    /// One ratio for all modes of both bodies.
+    pub const fn all(ratio: f64) -> Self {
+        Self {
+            wheel_torsion: ratio,
+            wheel_radial: ratio,
+            wheel_one_diameter: ratio,
+            wheel_more_diameters: ratio,
+            rail: ratio,
+        }
+    }
+
+    /// True if no mode is damped.
+    pub fn is_none(&self) -> bool {
+        *self == Self::NONE
+    }
+}
 
 /// How many names an error message suggests.
 const SUGGESTIONS: usize = 3;
@@ -102,6 +121,6 @@ impl Config {
         }
         self.check_rows()?;
         sideways::check(self)?;
-        dependent::ranges(self).into_iter().chain(sideways::ranges(self)).try_for_each(Dependent::check)
+        dependent::ranges(self).into_iter().try_for_each(Dependent::check)
     }
 }

@@ -94,7 +94,7 @@ mod tests {
             (r#"{"wheel": {"radius": "big"}}"#, &["wheel.radius = \"big\"", "0.01 to 10 m"]),
             (r#"{"thermal": {"hub": "warm"}}"#, &["thermal.hub = \"warm\"", "fixed or insulated"]),
             (r#"{"thermal": {"tread_blocks": 1.5}}"#, &["thermal.tread_blocks = 1.5", "1 to 2"]),
-            (r#"{"solver": {"modes_wheel": 99999999999}}"#, &["solver.modes_wheel = 99999999999", "1 to 200"]),
+            (r#"{"contact": {"lines": 99999999999}}"#, &["contact.lines = 99999999999", "1 to 13"]),
             (r#"{"wheel": {"radius": 2.0, "hub_radius": 0.01}}"#, &["wheel.hub_radius = 0.01", "wheel.radius = 2 m"]),
         ] {
             let message = parse(text).unwrap_err();

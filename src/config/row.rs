@@ -40,6 +40,9 @@ pub struct Row<T: 'static> {
 /// }
 /// ```
 ///
+/// Behind the rows of a group may stand fields that are `inside`, with type, default and meaning: they are no parameters,
+/// and only code sets them.
+///
 /// A row has number, level (`basic` or `expert`), field, type, default and meaning. Between them may stand: `of`, the
 /// group in the name if it is not that of the struct; `in`, the SI unit, and `as`, the unit in which people like to
 /// read it; `from … to`, the range; and `nominal`, the usual size. Types are `f64`, `Option<f64>` (unset until
@@ -67,6 +70,7 @@ macro_rules! parameters {
                             $(, nominal $nominal:literal)?
                             , $text:literal;
                     )*
+                    $( inside $inner:ident: $inner_type:ty = $inner_default:expr, $inner_text:literal; )*
                 }
             )*
         }
@@ -82,11 +86,12 @@ macro_rules! parameters {
             #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
             pub struct $Group {
                 $( #[doc = concat!($text, $(" \\[", $unit, "]",)? ".")] pub $field: $type, )*
+                $( #[doc = concat!($inner_text, ".")] pub $inner: $inner_type, )*
             }
 
             impl Default for $Group {
                 fn default() -> Self {
-                    Self { $( $field: $default, )* }
+                    Self { $( $field: $default, )* $( $inner: $inner_default, )* }
                 }
             }
         )*
@@ -94,6 +99,10 @@ macro_rules! parameters {
         impl $Config {
             /// Number of parameters.
             pub const COUNT: usize = [$($( $number ),*),*].len();
+
+            /// Names of the fields that are no parameters, in the form `group.name`.
+            pub const INSIDE: &'static [&'static str] =
+                &[$( $( concat!(stringify!($group), ".", stringify!($inner)), )* )*];
 
             /// The row of every parameter, in the order of their numbers.
             #[allow(clippy::needless_update)] // A row may give all its limits.
@@ -152,6 +161,7 @@ mod tests {
                 3 basic shape: Shape = Shape::Round, "Form of the head";
                 5 expert count: usize = 2, from 1 to 4, "How many there are";
                 4 basic on: bool = true, "Whether it is there";
+                inside core: f64 = 1.5, "What only code sets";
             }
             /// One that may change.
             tuning: Tuned tunable {
@@ -175,7 +185,8 @@ mod tests {
         let basic: Vec<_> = rows.iter().filter(|row| row.level == Level::Basic).map(|row| row.number).collect();
         assert_eq!(basic, [3, 4, 7]);
         let local = Local::default();
-        assert_eq!((local.head.profile.as_str(), local.tuning.width), ("cone", 0.07));
+        assert_eq!(Local::INSIDE, ["head.core"]);
+        assert_eq!((local.head.profile.as_str(), local.head.core, local.tuning.width), ("cone", 1.5, 0.07));
         assert!(
             matches!(rows[3].kind, Kind::Real { min: -1.5, max: 2.0, nominal: 0.1, measure } if measure.unit == "m")
         );

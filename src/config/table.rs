@@ -3,10 +3,11 @@
 //! Struct field with documentation, default (the preset `railway`), range check, access by name, the interface and the
 //! reference pages follow from the row. A range holds all values that make sense with some values of the others; ranges
 //! that depend on other parameters are checked by [`Config::validate`]. `basic` rows are those that most users set;
-//! they come first in the reference. A row that is taken out moves to [`super::retired`].
+//! they come first in the reference. A row that is taken out moves to [`super::retired`]. Fields that are `inside` are no
+//! parameters: only code sets them, that of tests and of the thesis.
 
 use super::choices::{
-    ConductanceLaw, ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear, WheelsetSide,
+    ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear, WheelsetSide,
 };
 use super::row::parameters;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -38,13 +39,7 @@ parameters! {
             1023 basic hub_inertia: f64 = 15.0, in "kg.m2", from 0.0 to 1e6, "Moment of inertia of that mass about the axle";
             1204 expert lateral_mass: f64 = 0.0, in "kg", from 0.0 to 1e6,
                 "Mass that moves sideways with the hub besides the wheel and wheel.hub_mass: what the wheelset adds; it counts with \
-                 contact.lateral only, as all that follows here";
-            1205 expert lateral_stiffness: f64 = 0.0, in "N/m" as "MN/m", from 0.0 to 1e15,
-                "Lateral stiffness of the wheel between hub and contact; 0: rigid";
-            1206 expert lateral_damping: f64 = 0.0, in "N.s/m" as "kN.s/m", from 0.0 to 1e12,
-                "Lateral damping beside that spring, 0 if it is rigid";
-            1207 expert lateral_tread_mass: f64 = 0.0, in "kg", from 0.0 to 1e6,
-                "Part of the wheel's mass that moves sideways with the tread, beyond that spring; 0 if it is rigid";
+                 contact.lateral only";
         }
         /// Vehicle that the wheel pulls along; the suspension carries it vertically.
         vehicle: Vehicle fixed {
@@ -72,12 +67,6 @@ parameters! {
                 "Longitudinal stiffness of the rail's restraint; 0: rigid";
             1046 expert restraint_damping: f64 = 1e6, in "N.s/m" as "kN.s/m", from 0.0 to 1e12,
                 "Longitudinal damping of the restraint, 0 if it is rigid";
-            1208 expert lateral_stiffness: f64 = 0.0, in "N/m" as "MN/m", from 0.0 to 1e15,
-                "Lateral stiffness of rail and track under the contact, with contact.lateral; 0: rigid";
-            1209 expert lateral_damping: f64 = 0.0, in "N.s/m" as "kN.s/m", from 0.0 to 1e12,
-                "Lateral damping beside that spring, 0 if it is rigid";
-            1210 expert lateral_mass: f64 = 0.0, in "kg", from 0.0 to 1e6,
-                "Mass of rail and track that moves sideways with the rail head, 0 if that spring is rigid";
             1048 expert ends: RailEnds = RailEnds::Free, "What the ends of the modelled rail do to waves";
         }
         /// Brake of the wheel; its strength is the input `brake.torque`.
@@ -137,9 +126,8 @@ parameters! {
             1168 expert film_friction: f64 = 0.02, from 0.0 to 1.0,
                 "Share of the friction coefficient that remains on molten steel; 1: melting leaves friction alone";
         }
-        /// Damping of the deformation of both bodies, on the rate of the *material*; all zero: none.
+        /// Damping ratios of the vibration modes of both bodies, on the rate of the *material*; all zero: none.
         damping: Damping fixed {
-            1130 expert modal: bool = true, "Whether the vibration modes are damped with the ratios of this group";
             1131 expert wheel_torsion: f64 = 1e-2, from 0.0 to 1.0,
                 "Damping ratio of the wheel's circumferential modes without nodal diameters (torsion on the hub)";
             1132 expert wheel_radial: f64 = 1e-3, from 0.0 to 1.0,
@@ -149,10 +137,6 @@ parameters! {
             1134 expert wheel_more_diameters: f64 = 1e-4, from 0.0 to 1.0,
                 "Damping ratio of the wheel's modes with two and more nodal diameters";
             1135 expert rail: f64 = 1e-2, from 0.0 to 1.0, "Damping ratio of the modes of the rail";
-            1136 expert rayleigh_mass: f64 = 0.0, in "1/s", from 0.0 to 1e4,
-                "Factor of the mass in Rayleigh damping of both bodies";
-            1137 expert rayleigh_stiffness: f64 = 0.0, in "s", from 0.0 to 1e-4,
-                "Factor of the stiffness in Rayleigh damping of both bodies, the dent of the contact included";
         }
         /// Coulomb friction; the law that lowers the coefficient is part of [`Tuning`].
         friction: Friction fixed {
@@ -166,13 +150,7 @@ parameters! {
             1112 basic wheel_excess: f64 = 0.0, in "K", from -1e3 to 5e3,
                 "Excess temperature of the whole wheel over the reference at the start (a warm wheel), above absolute zero";
             1113 expert conductance: f64 = 1e8, in "W/(m2.K)", from 0.0 to 1e12, "Contact conductance between wheel and rail";
-            1114 expert conductance_law: ConductanceLaw = ConductanceLaw::Constant,
-                "How the contact conductance depends on pressure";
-            1115 expert reference_pressure: f64 = 500e6, in "Pa" as "MPa", from 1.0 to 1e12,
-                "Pressure at which the pressure-dependent conductance is thermal.conductance";
             1116 expert heat_ratio: f64 = 1.0, from 0.0 to 1.0, "Fraction of the friction power that heats wheel and rail";
-            1117 expert wheel_share: f64 = 0.5, from 0.0 to 1.0,
-                "Share of that heat first put into the wheel; conduction decides where it goes";
             1118 expert hub: Hub = Hub::Fixed, "Thermal boundary condition of the hub";
             1119 basic convection: f64 = 0.0, in "W/(m2.K)", from 0.0 to 1e5,
                 "Coefficient of convection to air at the reference temperature, from tread, rim, web and rail head; with \
@@ -192,16 +170,14 @@ parameters! {
             1152 expert rim_depth: f64 = 0.06, in "m" as "mm", from 1e-4 to 10.0,
                 "Depth of the rim below the tread; down to the hub where that is nearer";
             1153 expert web_width: f64 = 0.025, in "m" as "mm", from 1e-4 to 1.0, "Width of the wheel's web";
-            1154 expert boss_width: f64 = 0.17, in "m" as "mm", from 1e-4 to 1.0, "Width of the wheel's boss";
             1155 expert boss_radius: f64 = 0.13, in "m", from 0.0 to 10.0,
                 "Outer radius of the boss; below wheel.hub_radius there is none";
             1156 expert head_width: f64 = 0.072, in "m" as "mm", from 1e-3 to 1.0,
                 "Width of the rail head, down to the base of the rail; at least that of the contact";
             1157 expert block_width: f64 = 0.08, in "m" as "mm", from 1e-3 to 1.0,
                 "Width of a brake block on the tread, at least that of the contact and at most that of the rim";
-            1158 expert emissivity: f64 = 0.0, from 0.0 to 1.0,
-                "Emissivity of the surfaces that thermal.convection cools, towards surroundings at the reference \
-                 temperature; 0: no radiation. The stationary start is without it";
+            inside wheel_share: f64 = 0.5, "Share of the heat of friction first put into the wheel; conduction decides where it goes";
+            inside boss: f64 = 0.17 / 0.135, "Width of the wheel's boss over that of its rim";
         }
         /// History of hot material; what decides about the structure of steel is part of [`Tuning`].
         damage: DamageParameters fixed {
@@ -209,27 +185,18 @@ parameters! {
                 "Size of the elements and time steps in which hot places of the tread are followed, relative to the \
                  usual one";
             1171 basic wear: Wear = Wear::Off, "Whether wear changes the profile of the wheel, and of the rail where the contact stays";
-            1172 expert wear_mild: f64 = 5.3e-9, in "kg/J" as "g/MJ", from 0.0 to 1.0,
-                "Mild wear: mass over friction energy. The defaults of these five are those of the wheel steel R8T on rails of \
-                 grade 900A, Braghin, Lewis, Dwyer-Joyce, Bruni, Wear 261 (2006); they do without wear and do not act on \
-                 anything but damage.wear_rate as long as damage.wear is off";
-            1173 expert wear_severe: f64 = 0.055, in "kg/m3", from 0.0 to 1e6,
-                "Severe wear: mass over distance rolled and area of the contact, whatever the energy";
-            1174 expert wear_catastrophic: f64 = 61.9e-9, in "kg/J" as "g/MJ", from 0.0 to 1.0,
-                "Catastrophic wear: mass over the energy beyond damage.wear_catastrophic_from";
-            1175 expert wear_severe_from: f64 = 10.4e6, in "Pa" as "MPa", from 0.0 to 1e12,
-                "Energy per distance rolled and area of the contact from which wear is severe";
-            1176 expert wear_catastrophic_from: f64 = 77.2e6, in "Pa" as "MPa", from 0.0 to 1e12,
-                "The same from which it is catastrophic, at least damage.wear_severe_from";
+            1177 expert wear_factor: f64 = 1.0, from 0.0 to 1e3,
+                "Mass that wears off over that of the wheel steel R8T on rails of grade 900A, dry, in twin-disc tests, Braghin, Lewis, \
+                 Dwyer-Joyce, Bruni, Wear 261 (2006): for other steels and for lubricated rails; damage.wear_rate has it, too, where \
+                 damage.wear is off";
         }
         /// Switches for parts of the physics.
         physics: Physics fixed {
-            1070 expert centrifugal: bool = true, "Centrifugal load of the spinning wheel";
-            1071 expert thermal_expansion: bool = true, "Thermal expansion and stress act back on the contact";
             1072 expert thermoelastic_heating: bool = false, "Reversible (Gough-Joule) heating of compressed material";
             1073 expert yielding: bool = true,
                 "Steel yields: the pressure stays below 2.97 times the yield strength, less under the friction of a locked wheel, what it \
                  cannot carry flattens the surface for good";
+            inside centrifugal: bool = true, "Centrifugal load of the spinning wheel";
         }
         /// Layout of the graded meshes.
         mesh: MeshParameters fixed {
@@ -245,8 +212,8 @@ parameters! {
         /// Numerical choices.
         solver: SolverParameters fixed {
             1090 expert response: Response = Response::Reduced, "How the bodies answer contact tractions";
-            1091 expert modes_wheel: usize = 80, from 1 to 200, "Vibration modes kept for the wheel (reduced response)";
-            1092 expert modes_rail: usize = 40, from 1 to 200, "Vibration modes kept for the rail (reduced response)";
+            inside modes_wheel: usize = 80, "Vibration modes kept for the wheel (reduced response)";
+            inside modes_rail: usize = 40, "Vibration modes kept for the rail (reduced response)";
         }
         /// Stationary rolling state from which the run starts.
         initial: Initial fixed {

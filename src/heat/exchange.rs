@@ -1,4 +1,4 @@
-//! Exchange of heat at the surfaces during a step: patches, pressure, frictional heat, other sources.
+//! Exchange of heat at the surfaces during a step: patches, frictional heat, other sources.
 
 use crate::piecewise::{Interval, Piecewise};
 use serde::{Deserialize, Serialize};
@@ -39,8 +39,6 @@ pub enum HeatPlace {
 pub struct Exchange {
     /// Intervals in which the bodies touch, without overlap; none: lifted off.
     pub patches: Vec<Interval>,
-    /// Contact pressure over x \[Pa]; used by the pressure-dependent conductance only.
-    pub pressure: Piecewise,
     /// Friction power per area `|τ s|` over x [W/m²], of which the fraction `γ_f` becomes heat in the bodies.
     pub friction_power: Piecewise,
     /// Share of the friction power that a molten film leaves at the nodes of the surfaces \[1], constant beyond its ends; empty: all
@@ -61,7 +59,6 @@ impl Exchange {
     /// Removes everything and keeps the memory.
     pub fn clear(&mut self) {
         self.patches.clear();
-        self.pressure.clear();
         self.friction_power.clear();
         self.film.clear();
         self.friction_excess = 0.0;

@@ -60,8 +60,8 @@ pub enum BasisError {
 
 /// Name of the basis for a configuration: UUID version 5 of the parameters it depends on.
 ///
-/// Geometry, ends of the rail, elasticity, density, mesh, nominal line load and numbers of modes, whether stiffness
-/// damps, and the code; not masses, friction or time scheme.
+/// Geometry, ends of the rail, elasticity, density, mesh, nominal line load, numbers of modes and the code; not masses,
+/// friction or time scheme.
 pub fn key(config: &Config) -> String {
     let Config { model, wheel, rail, material, mesh, solver, .. } = config;
     let lengths = [wheel.radius, wheel.hub_radius, rail.length, rail.height];
@@ -73,9 +73,7 @@ pub fn key(config: &Config) -> String {
         ContactShape::Ellipse | ContactShape::Rows => [-config.nominal_patch().half_length],
     };
     let counts = [mesh.elements_per_half_width, solver.modes_wheel, solver.modes_rail, rail.ends as usize];
-    let streaming = config.damping.rayleigh_stiffness > 0.0;
     let mut bytes = CODE.as_bytes().to_vec();
-    bytes.extend(streaming.then_some(1));
     bytes.extend(lengths.iter().chain(&elastic).chain(&line_load).chain(&zone).flat_map(|value| value.to_le_bytes()));
     bytes.extend(counts.iter().flat_map(|&count| (count as u64).to_le_bytes()));
     Uuid::new_v5(&NAMESPACE, &bytes).to_string()
@@ -93,16 +91,16 @@ fn checksum(bytes: &[u8]) -> u64 {
     mix(mix(hash, u64::from_le_bytes(last)), bytes.len() as u64)
 }
 
-/// One body, reduced to the number of `modes` that `parameter` gives.
+/// One `body`, reduced to a number of `modes`.
 fn reduced(
-    parameter: &'static str,
-    (modes, streaming): (usize, bool),
+    body: &'static str,
+    modes: usize,
     system: impl Fn() -> Result<BodySystem, MechanicsError>,
     progress: &mut dyn FnMut(f64),
 ) -> Result<ReducedBasis, MechanicsError> {
     progress(0.0);
-    ReducedBasis::compute_with(&system()?, modes, streaming, progress).map_err(|error| match error {
-        MechanicsError::Linalg(source) => MechanicsError::Modes { parameter, modes, source },
+    ReducedBasis::compute(&system()?, modes, progress).map_err(|error| match error {
+        MechanicsError::Linalg(source) => MechanicsError::Modes { body, modes, source },
         other => other,
     })
 }
@@ -112,20 +110,16 @@ impl Basis {
     /// activity and its share done.
     pub fn compute(config: &Config, progress: &mut dyn FnMut(&str, f64)) -> Result<Self, MechanicsError> {
         check_size(config)?;
-        let streaming = config.damping.rayleigh_stiffness > 0.0;
         let (wheel_modes, rail_modes) = (config.solver.modes_wheel, config.solver.modes_rail);
-        let rail = |report: &mut dyn FnMut(f64)| {
-            reduced("solver.modes_rail", (rail_modes, streaming), || rail_system(config), report)
-        };
+        let rail = |report: &mut dyn FnMut(f64)| reduced("rail", rail_modes, || rail_system(config), report);
         let (sender, shares) = mpsc::channel();
         thread::scope(|scope| {
             // Nobody listens where the wheel has failed.
             let elsewhere =
                 thread::Builder::new().spawn_scoped(scope, move || rail(&mut |share| _ = sender.send(share)));
-            let wheel =
-                reduced("solver.modes_wheel", (wheel_modes, streaming), || wheel_system(config), &mut |share| {
-                    progress("vibration modes of the wheel", share);
-                })?;
+            let wheel = reduced("wheel", wheel_modes, || wheel_system(config), &mut |share| {
+                progress("vibration modes of the wheel", share);
+            })?;
             let mut report = |share| progress("vibration modes of the rail", share);
             let rail = match elsewhere {
                 Ok(thread) => {

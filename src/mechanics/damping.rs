@@ -1,6 +1,6 @@
-//! Damping of a body: a ratio for each vibration mode, and Rayleigh's combination of mass and stiffness.
+//! Damping of a body: a ratio for each vibration mode.
 //!
-//! Both act on the rate of the deformation *of the material*, `ẏ + Ω L y` with `L = M⁻¹ T` and the transport matrix `T`
+//! It acts on the rate of the deformation *of the material*, `ẏ + Ω L y` with `L = M⁻¹ T` and the transport matrix `T`
 //! of [`super::BodySystem`]: a wheel that rolls with a constant dent is strained anew with every turn. For deformation
 //! without nodal diameters (torsion on the hub, growth of the radius) `T y = 0`. The part of the stream is taken of the
 //! kept modes alone. Theory: `docs/theory/damping.md`.
@@ -19,10 +19,6 @@ use std::sync::Arc;
 pub struct BodyDamping {
     /// Damping ratios of the vibration modes, by [`ModeCharacter::group`] \[1].
     pub ratios: [f64; GROUPS],
-    /// Rayleigh's factor `α0` of the mass [1/s].
-    pub mass: f64,
-    /// Rayleigh's factor `α1` of the stiffness \[s].
-    pub stiffness: f64,
 }
 
 /// Number of groups of modes.
@@ -34,7 +30,7 @@ const MORE_DIAMETERS: usize = 3;
 
 impl BodyDamping {
     /// No damping at all.
-    pub const NONE: Self = Self { ratios: [0.0; GROUPS], mass: 0.0, stiffness: 0.0 };
+    pub const NONE: Self = Self { ratios: [0.0; GROUPS] };
 
     /// Damping of the wheel.
     pub fn wheel(config: &Config) -> Self {
@@ -44,18 +40,12 @@ impl BodyDamping {
         ratios[RADIAL] = damping.wheel_radial;
         ratios[ONE_DIAMETER] = damping.wheel_one_diameter;
         ratios[MORE_DIAMETERS] = damping.wheel_more_diameters;
-        Self::of(config, ratios)
+        Self { ratios }
     }
 
     /// Damping of the rail.
     pub fn rail(config: &Config) -> Self {
-        Self::of(config, [config.damping.rail; GROUPS])
-    }
-
-    fn of(config: &Config, ratios: [f64; GROUPS]) -> Self {
-        let damping = &config.damping;
-        let ratios = if damping.modal { ratios } else { [0.0; GROUPS] };
-        Self { ratios, mass: damping.rayleigh_mass, stiffness: damping.rayleigh_stiffness }
+        Self { ratios: [config.damping.rail; GROUPS] }
     }
 
     /// True if nothing is damped.
@@ -63,7 +53,7 @@ impl BodyDamping {
         *self == Self::NONE
     }
 
-    /// Damping `2 ζ ω` of each mode by its ratio, Rayleigh damping left out [1/s].
+    /// Damping `2 ζ ω` of each mode [1/s].
     pub(super) fn modal(&self, squared_frequencies: &DVector<f64>, character: &ModeCharacter) -> DVector<f64> {
         DVector::from_fn(squared_frequencies.len(), |i, _| {
             2.0 * self.ratios[character.group(i)] * squared_frequencies[i].sqrt()
@@ -118,7 +108,7 @@ pub(super) struct DampedModes {
     pub shapes: Arc<DMatrix<f64>>,
     /// Squared frequencies [rad²/s²].
     pub squared_frequencies: DVector<f64>,
-    /// Damping by ratios, Rayleigh damping left out [1/s].
+    /// Damping `2 ζ ω` [1/s].
     pub rates: DVector<f64>,
 }
 
@@ -213,14 +203,12 @@ mod tests {
         let basis = ReducedBasis::compute(&system, 24, &mut |_| {}).unwrap();
         let mut damping = BodyDamping::NONE;
         damping.ratios = [1e-2, 2e-3, 5e-3, 1e-3];
-        let rayleigh = BodyDamping { mass: 20.0, stiffness: 4e-6, ..BodyDamping::NONE };
-        for (damping, speed) in [(damping, 0.0), (damping, 60.0), (rayleigh, 0.0), (rayleigh, 60.0)] {
+        for speed in [0.0, 60.0] {
             let body = ReducedBody::new(basis.clone(), false, &damping);
             for mode in [TORSION, RADIAL].map(|group| (0..24).find(|&i| basis.character.group(i) == group).unwrap()) {
                 let square = basis.squared_frequencies[mode];
                 let omega = square.sqrt();
-                let ratio = damping.ratios[basis.character.group(mode)]
-                    + 0.5 * (damping.mass / omega + damping.stiffness * omega);
+                let ratio = damping.ratios[basis.character.group(mode)];
                 let errors = [200.0, 400.0].map(|steps| {
                     let dt = std::f64::consts::TAU / omega / steps;
                     let td = trapezoidal(dt);
@@ -249,13 +237,13 @@ mod tests {
     }
 
     /// Operators and a rolling run under a ramped load; with few modes in the reduced body, but the same in both
-    /// dampings.
+    /// dampings. In the rail the stream carries much of what the truncated modes hold, which only the full body knows.
     #[test]
     fn damped_reduced_and_full_bodies_answer_alike() {
         let config = paper_d(5);
-        let damping = BodyDamping { ratios: [3e-2, 2e-2, 5e-2, 1e-2], mass: 30.0, stiffness: 2e-6 };
-        for system in [wheel_system(&config).unwrap(), rail_system(&config).unwrap()] {
-            let basis = ReducedBasis::compute_with(&system, 40, true, &mut |_| {}).unwrap();
+        let damping = BodyDamping { ratios: [3e-2, 2e-2, 5e-2, 1e-2] };
+        for (system, carried) in [(wheel_system(&config).unwrap(), 2e-2), (rail_system(&config).unwrap(), 0.1)] {
+            let basis = ReducedBasis::compute(&system, 40, &mut |_| {}).unwrap();
             let reduced = ReducedBody::new(basis, false, &damping);
             let full = FullBody::damped(system, false, &damping, 40).unwrap();
             let dt = 2e-4;
@@ -287,7 +275,7 @@ mod tests {
                 energy = energy.max((a.2 / b.2 - 1.0).abs());
             }
             println!("surface {surface:.1e}, power {:.1e}, energy {energy:.1e}", power / largest);
-            assert!(surface < 2e-3 && power < 2e-2 * largest && energy < 2e-2);
+            assert!(surface < 2e-3 && power < carried * largest && energy < 2e-2);
         }
     }
 
@@ -295,7 +283,7 @@ mod tests {
     fn statics_of_a_body_at_rest_are_not_damped() {
         let config = paper_d(5);
         let basis = ReducedBasis::compute(&rail_system(&config).unwrap(), 10, &mut |_| {}).unwrap();
-        let damping = BodyDamping { ratios: [0.1; GROUPS], mass: 100.0, stiffness: 1e-4 };
+        let damping = BodyDamping { ratios: [0.1; GROUPS] };
         let [damped, plain] = [damping, BodyDamping::NONE].map(|d| ReducedBody::new(basis.clone(), false, &d));
         let (a, b) = (damped.operator(0.0).unwrap(), plain.operator(0.0).unwrap());
         assert_eq!(a.surface, b.surface);

@@ -24,13 +24,13 @@ pub enum MechanicsError {
     },
     /// Vibration modes that need more memory than can be given.
     #[error(
-        "{parameter} = {modes} modes on a mesh of {unknowns:.0} unknowns would need {memory:.1e} bytes, more than \
-         {limit:.1e}: lower {parameter} or mesh.elements_per_half_width"
+        "the {modes} vibration modes of the {body} on a mesh of {unknowns:.0} unknowns would need {memory:.1e} bytes, more \
+         than {limit:.1e}: lower mesh.elements_per_half_width"
     )]
     TooManyModes {
-        /// Name of the parameter.
-        parameter: &'static str,
-        /// Its value.
+        /// Which body: wheel or rail.
+        body: &'static str,
+        /// Number of modes.
         modes: usize,
         /// Number of unknown displacements.
         unknowns: f64,
@@ -40,11 +40,11 @@ pub enum MechanicsError {
         limit: f64,
     },
     /// Vibration modes that could not be computed.
-    #[error("no vibration modes for {parameter} = {modes}: {source}; lower it, or change mesh.elements_per_half_width")]
+    #[error("no {modes} vibration modes of the {body}: {source}; change mesh.elements_per_half_width")]
     Modes {
-        /// Name of the parameter.
-        parameter: &'static str,
-        /// Its value.
+        /// Which body: wheel or rail.
+        body: &'static str,
+        /// Number of modes.
         modes: usize,
         /// Why.
         source: LinalgError,

@@ -3,9 +3,9 @@
 use super::MechanicsError;
 use super::damping::{BodyDamping, DampedModes};
 use super::motion::{BodyResponse, Equations, centrifugal_work};
+use super::products::quadratic_form;
 use super::reduction::scale_columns;
 use super::response::{BodyState, StepOperator, fit};
-use super::retarded::{RetardedLayer, quadratic_form};
 use super::smooth::SmoothPorts;
 use super::solver::{Dense, StepSolver};
 use super::system::BodySystem;
@@ -21,7 +21,8 @@ pub struct FullBody {
     system: BodySystem,
     pattern: CholeskyPattern,
     centrifugal: bool,
-    damping: Option<FullDamping>,
+    /// The modes that ratios damp, and through which the stream carries strain.
+    damping: Option<Arc<DampedModes>>,
     /// Components of the ports by those of the surface nodes; `None`: these are the ports.
     on_points: Option<DMatrix<f64>>,
     /// Flexibility that the finite elements lack between the ports: none between surface nodes, and at the points of
@@ -29,20 +30,9 @@ pub struct FullBody {
     lacking: DMatrix<f64>,
 }
 
-/// Damping of all finite elements.
-struct FullDamping {
-    /// Rayleigh's factors of mass [1/s] and stiffness \[s].
-    rayleigh: [f64; 2],
-    /// The modes that ratios damp, and through which the stream carries strain.
-    modes: Arc<DampedModes>,
-    /// That flexibility, with stiffness-proportional damping only.
-    layer: Option<Arc<RetardedLayer>>,
-}
-
-/// `a0² M + a0 (D + α0 M + α1 K) + K` with dashpots `D`; the pattern does not depend on `a0`.
-fn step_matrix(system: &BodySystem, [mass, stiffness]: [f64; 2], a0: f64) -> Result<CsrMatrix, LinalgError> {
-    let (of_mass, of_stiffness) = (a0 * a0 + a0 * mass, 1.0 + a0 * stiffness);
-    let matrix = CsrMatrix::combination(of_mass, &system.mass, of_stiffness, &system.stiffness)?;
+/// `a0² M + a0 D + K` with dashpots `D`; the pattern does not depend on `a0`.
+fn step_matrix(system: &BodySystem, a0: f64) -> Result<CsrMatrix, LinalgError> {
+    let matrix = CsrMatrix::combination(a0 * a0, &system.mass, 1.0, &system.stiffness)?;
     match &system.damping {
         Some(damping) => CsrMatrix::combination(1.0, &matrix, a0, damping),
         None => Ok(matrix),
@@ -52,7 +42,7 @@ fn step_matrix(system: &BodySystem, [mass, stiffness]: [f64; 2], a0: f64) -> Res
 impl FullBody {
     /// Analyses the pattern of `a0² M + a0 D + K` once for all `a0`; `centrifugal`: with the centrifugal load.
     pub fn new(system: BodySystem, centrifugal: bool) -> Result<Self, MechanicsError> {
-        let pattern = CholeskyPattern::new(&step_matrix(&system, [0.0; 2], 0.0)?)?;
+        let pattern = CholeskyPattern::new(&step_matrix(&system, 0.0)?)?;
         let ports = system.surface.len();
         Ok(Self { system, pattern, centrifugal, damping: None, on_points: None, lacking: DMatrix::zeros(ports, ports) })
     }
@@ -68,27 +58,16 @@ impl FullBody {
         if damping.is_none() {
             return Ok(body);
         }
-        let modes = Arc::new(DampedModes::compute(&body.system, modes, damping)?);
-        let layer = (damping.stiffness > 0.0)
-            .then(|| Arc::new(RetardedLayer { flexibility: body.lacking.clone(), time: damping.stiffness }));
-        body.damping = Some(FullDamping { rayleigh: [damping.mass, damping.stiffness], modes, layer });
+        body.damping = Some(Arc::new(DampedModes::compute(&body.system, modes, damping)?));
         Ok(body)
     }
 
     /// This body, whose ports are its surface nodes, less a half-plane on points of their zone.
-    pub(super) fn smooth(
-        mut self,
-        ports: &SmoothPorts,
-        half_plane: HalfPlane,
-        side: f64,
-    ) -> Result<Self, MechanicsError> {
+    pub(super) fn smooth(self, ports: &SmoothPorts, half_plane: HalfPlane, side: f64) -> Result<Self, MechanicsError> {
         let (compliance, on_points) = (self.operator(0.0)?.surface, ports.components());
         let mut lacking = ports.remainder(&compliance, half_plane, side);
         lacking -= &on_points * compliance * on_points.transpose();
         symmetrise(&mut lacking);
-        if let Some(layer) = self.damping.as_mut().and_then(|damping| damping.layer.as_mut()) {
-            Arc::make_mut(layer).flexibility.clone_from(&lacking);
-        }
         Ok(Self { on_points: Some(on_points), lacking, ..self })
     }
 
@@ -114,13 +93,9 @@ impl FullBody {
         symmetrise(&mut compliance);
         compliance
     }
-
-    fn rayleigh(&self) -> [f64; 2] {
-        self.damping.as_ref().map_or([0.0; 2], |damping| damping.rayleigh)
-    }
 }
 
-impl FullDamping {
+impl DampedModes {
     /// Correction `L W Lᵀ` of the inverse of the matrix `A` of the step by the damping of modes by ratios, which its
     /// `factor` does not contain.
     fn correction(&self, system: &BodySystem, factor: &Cholesky, a0: f64) -> Result<Correction, MechanicsError> {
@@ -130,13 +105,11 @@ impl FullDamping {
         }
     }
 
-    /// The modes are eigenvectors of `A`: `L = Φ` and `W = diag(1/(s + 2ζω a0) − 1/s)` with
-    /// `s = a0² + α0 a0 + (1 + α1 a0) ω²`.
+    /// The modes are eigenvectors of `A`: `L = Φ` and `W = diag(1/(s + 2ζω a0) − 1/s)` with `s = a0² + ω²`.
     fn uncoupled(&self, a0: f64) -> Correction {
-        let [mass, stiffness] = self.rayleigh;
-        let DampedModes { squared_frequencies, rates, shapes, .. } = &*self.modes;
+        let Self { squared_frequencies, rates, shapes } = self;
         let weights = squared_frequencies.zip_map(rates, |square, rate| {
-            let without = a0 * a0 + mass * a0 + (1.0 + stiffness * a0) * square;
+            let without = a0 * a0 + square;
             1.0 / (without + rate * a0) - 1.0 / without
         });
         Correction { shapes: shapes.clone(), weights: DMatrix::from_diagonal(&weights) }
@@ -145,7 +118,7 @@ impl FullDamping {
     /// Dashpots couple the modes: `L = A⁻¹ M Φ R`, `W = −a0 (1 + a0 R Φᵀ M A⁻¹ M Φ R)⁻¹` with `R² = diag(2ζω)`
     /// (Woodbury).
     fn coupled(&self, system: &BodySystem, factor: &Cholesky, a0: f64) -> Result<Correction, MechanicsError> {
-        let DampedModes { rates, shapes, .. } = &*self.modes;
+        let Self { rates, shapes, .. } = self;
         let loads = scale_columns(&system.mass.multiply_columns(shapes), &rates.map(f64::sqrt));
         let mut answers = loads.clone();
         factor.solve_columns(&mut answers);
@@ -161,9 +134,8 @@ impl FullDamping {
         if speed == 0.0 {
             return;
         }
-        let shapes = &self.modes.shapes;
-        let modal = shapes.tr_mul(&product(&system.transport, y));
-        velocity.gemv(speed, shapes, &modal, 1.0);
+        let modal = self.shapes.tr_mul(&product(&system.transport, y));
+        velocity.gemv(speed, &self.shapes, &modal, 1.0);
     }
 }
 
@@ -213,16 +185,10 @@ impl Equations for FullBody {
         }
         let Some(damping) = &self.damping else { return };
         damping.follow_stream(&self.system, speed, &state.displacement, velocity);
-        let DampedModes { shapes, rates, .. } = &*damping.modes;
+        let DampedModes { shapes, rates, .. } = &**damping;
         let modal = shapes.tr_mul(&product(&self.system.mass, velocity)).component_mul(rates);
-        let [mass, stiffness] = damping.rayleigh;
-        let field = &**shapes * modal + &*velocity * mass;
+        let field = &**shapes * modal;
         self.system.mass.multiply_add(-1.0, field.as_slice(), load.as_mut_slice());
-        self.system.stiffness.multiply_add(-stiffness, velocity.as_slice(), load.as_mut_slice());
-    }
-
-    fn layer(&self) -> Option<&RetardedLayer> {
-        self.damping.as_ref().and_then(|damping| damping.layer.as_deref())
     }
 
     fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>) {
@@ -269,7 +235,7 @@ impl BodyResponse for FullBody {
 
     fn operator(&self, a0: f64) -> Result<StepOperator, MechanicsError> {
         let system = &self.system;
-        let factor = self.pattern.factorise(&step_matrix(system, self.rayleigh(), a0)?)?;
+        let factor = self.pattern.factorise(&step_matrix(system, a0)?)?;
         let mut surface = self.compliance(&factor);
         let mut rigid = system.rigid.clone();
         factor.solve_columns(&mut rigid);
@@ -288,9 +254,8 @@ impl BodyResponse for FullBody {
         let inertial_response = -self.rows_on_ports(&rigid);
         let momentum = inertial_response.transpose() * -(a0 * a0);
         let deformation_inertia = system.rigid.tr_mul(&rigid) * -(a0 * a0);
-        let layer = self.damping.as_ref().and_then(|damping| damping.layer.clone());
-        surface += &self.lacking * layer.as_ref().map_or(1.0, |layer| layer.share(a0));
-        Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, layer, solver })
+        surface += &self.lacking;
+        Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, solver })
     }
 
     fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: PerAxis<f64>) -> f64 {
@@ -300,11 +265,8 @@ impl BodyResponse for FullBody {
         let kinetic = 0.5 * system.mass.bilinear(v, v);
         let momentum = system.rigid.column_iter().map(|m_r| m_r.dot(&state.velocity));
         let coupling: f64 = momentum.zip(rigid_velocity.values()).map(|(p, w)| p * w).sum();
-        let layer = match self.layer() {
-            Some(layer) => layer.energy(&state.retarded),
-            None => 0.5 * quadratic_form(&self.lacking, forces),
-        };
-        elastic + kinetic + coupling + layer - centrifugal_work(self, state, rigid_velocity.rotation)
+        let lacking = 0.5 * quadratic_form(&self.lacking, forces);
+        elastic + kinetic + coupling + lacking - centrifugal_work(self, state, rigid_velocity.rotation)
     }
 
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64 {
@@ -314,11 +276,8 @@ impl BodyResponse for FullBody {
         let mut velocity = state.velocity.clone();
         damping.follow_stream(system, speed, &state.displacement, &mut velocity);
         let momentum = product(&system.mass, &velocity);
-        let modal = damping.modes.shapes.tr_mul(&momentum);
-        let modes: f64 = modal.iter().zip(&damping.modes.rates).map(|(v, rate)| rate * v * v).sum();
-        let ([mass, stiffness], v) = (damping.rayleigh, velocity.as_slice());
-        let rayleigh = mass * velocity.dot(&momentum) + stiffness * system.stiffness.bilinear(v, v);
-        dashpots + modes + rayleigh + self.layer().map_or(0.0, |layer| layer.dissipation(&state.retarded))
+        let modal = damping.shapes.tr_mul(&momentum);
+        dashpots + modal.iter().zip(&damping.rates).map(|(v, rate)| rate * v * v).sum::<f64>()
     }
 }
 
@@ -329,23 +288,23 @@ mod tests {
     use crate::mechanics::rail_system;
     use crate::mechanics::testing::paper_d;
 
-    /// Ratios of modes and Rayleigh damping beside dashpots: the residual of the equations of the step.
+    /// Ratios of modes beside dashpots: the residual of the equations of the step.
     #[test]
     fn the_matrix_of_a_step_with_dashpots_and_damped_modes_is_inverted() {
         let mut config = paper_d(3);
         config.rail.ends = RailEnds::Nonreflecting;
         let system = rail_system(&config).unwrap();
-        let damping = BodyDamping { ratios: [0.1; 4], mass: 30.0, stiffness: 2e-6 };
+        let damping = BodyDamping { ratios: [0.1; 4] };
         let body = FullBody::damped(system.clone(), false, &damping, 8).unwrap();
         let a0 = 2e4;
         let f = DVector::from_fn(system.unknowns(), |i, _| ((i * 37) % 101) as f64 - 50.0);
         let mut y = f.clone();
         body.operator(a0).unwrap().solver.solve_in_place(&mut y);
-        let modes = &body.damping.as_ref().unwrap().modes;
+        let modes = body.damping.as_ref().unwrap();
         let momentum = product(&system.mass, &y);
         let modal = modes.shapes.tr_mul(&momentum).component_mul(&modes.rates);
-        let field = &momentum * (a0 * a0 + a0 * damping.mass) + product(&system.mass, &(&*modes.shapes * modal)) * a0;
-        let elastic = product(&system.stiffness, &y) * (1.0 + a0 * damping.stiffness);
+        let field = &momentum * (a0 * a0) + product(&system.mass, &(&*modes.shapes * modal)) * a0;
+        let elastic = product(&system.stiffness, &y);
         let residual = field + elastic + product(system.damping.as_ref().unwrap(), &y) * a0 - &f;
         assert!(residual.amax() < 1e-9 * f.amax(), "{:e}", residual.amax());
     }

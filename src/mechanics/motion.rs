@@ -6,7 +6,6 @@
 
 use super::MechanicsError;
 use super::response::{BodyState, Convection, FreeResponse, StepOperator, fit};
-use super::retarded::RetardedLayer;
 use crate::axes::PerAxis;
 use crate::linalg::vectorised::dot;
 use crate::multistep::TimeDerivative;
@@ -26,9 +25,6 @@ pub trait Equations {
 
     /// Keeps with a state what damping in the next step and its dissipation need of it.
     fn convect(&self, _state: &mut BodyState) {}
-
-    /// Residual flexibility with a retarded response.
-    fn layer(&self) -> Option<&RetardedLayer>;
 
     /// `load ← load − C x`.
     fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>);
@@ -70,7 +66,7 @@ pub trait BodyResponse: Equations + Send + Sync {
         stream: Convection,
         out: &mut FreeResponse,
     ) {
-        let FreeResponse { surface, momentum, load, acceleration, velocity, product, retarded } = out;
+        let FreeResponse { surface, momentum, load, acceleration, velocity, product } = out;
         state.acceleration_offsets(td, acceleration);
         fit(load, acceleration.len());
         fit(product, acceleration.len());
@@ -95,9 +91,6 @@ pub trait BodyResponse: Equations + Send + Sync {
         product.copy_from(load);
         op.solver.solve_in_place(product);
         self.set_surface(product, square, surface);
-        if let Some(layer) = self.layer() {
-            layer.add_known(&state.retarded, td, retarded, surface);
-        }
         let a0_squared = op.a0 * op.a0;
         for (value, known) in product.as_mut_slice().iter_mut().zip(acceleration.as_slice()) {
             *value = *value * a0_squared + known;
@@ -131,9 +124,6 @@ pub trait BodyResponse: Equations + Send + Sync {
         }
         op.solver.solve_in_place(new);
         state.advance(td, next);
-        if let Some(layer) = self.layer() {
-            layer.commit(&free.retarded, forces, td, &state.retarded, &mut next.retarded);
-        }
         self.convect(next);
     }
 
@@ -145,11 +135,6 @@ pub trait BodyResponse: Equations + Send + Sync {
     /// Power that damping dissipates and the ends radiate while the material streams with `speed` [W/m]; zero without
     /// damping.
     fn dissipation(&self, state: &BodyState, speed: f64) -> f64;
-
-    /// Number of elastic nodal forces in [`BodyState::retarded`]; 0 without stiffness-proportional damping.
-    fn retarded_len(&self) -> usize {
-        self.layer().map_or(0, |layer| layer.flexibility.nrows())
-    }
 }
 
 /// Work `Ω² XᵀM y` of the centrifugal load on the deformation, at the angular velocity `omega` [rad/s], in J/m.

@@ -2,8 +2,7 @@
 //!
 //! `y = Φ q + (static answer of the truncated modes)`: with hub or base fixed, `Φᵀ M Φ = 1`, `Φᵀ K Φ = diag(Ω²)`, the
 //! surface displacement is `u = Φ_s q + F_res λ + …` with `F_res = G − Φ_s Ω⁻² Φ_sᵀ` and `G` the static compliance. The
-//! static limit is exact; the truncated modes lie above the band of interest and follow their load at once, or, with
-//! stiffness-proportional damping, with the retardation of a [`RetardedLayer`]. Ratios of modes and Rayleigh damping
+//! static limit is exact; the truncated modes lie above the band of interest and follow their load at once. Ratios of modes
 //! leave the kept modes uncoupled; dashpots couple them by `Φᵀ D Φ` and take no energy from the truncated ones.
 //!
 //! This is MacNeal's method: R. H. MacNeal, *Computers & Structures* 1 (1971) 581–601, there for free interfaces with
@@ -15,36 +14,32 @@ use super::MechanicsError;
 use super::damping::BodyDamping;
 use super::kinds::ModeKinds;
 use super::motion::{BodyResponse, Equations, centrifugal_work, column};
+use super::products::{add_product, quadratic_form};
 use super::reduction::{ReducedBasis, scale_columns};
 use super::response::{BodyState, StepOperator, fit};
-use super::retarded::{RetardedLayer, add_product, quadratic_form};
 use super::solver::{Dense, Diagonal, StepSolver};
 use crate::axes::{Axis, PerAxis};
 use crate::linalg::dense::symmetrise;
 use crate::linalg::vectorised::{self, dot};
 use nalgebra::{DMatrix, DVector};
 use std::borrow::Cow;
-use std::sync::Arc;
 
 /// State: modal coordinates.
 pub struct ReducedBody {
     /// Modes, kind by kind, and what else is constant.
     basis: ReducedBasis,
     kinds: ModeKinds,
-    /// Surface values of the modes, and what their basis carries, with a column for each port.
+    /// Surface values of the modes, a column for each port.
     by_port: DMatrix<f64>,
-    carried: Option<DMatrix<f64>>,
     /// Centrifugal load of the spinning wheel.
     centrifugal: bool,
     /// Damping of each mode; `None`: by dashpots at most.
     modal: Option<ModalRates>,
-    /// The residual flexibility, if it is damped.
-    layer: Option<Arc<RetardedLayer>>,
 }
 
 /// Damping that does not couple the modes.
 struct ModalRates {
-    /// `2 ζ ω + α0 + α1 ω²` [1/s].
+    /// `2 ζ ω` [1/s].
     rates: DVector<f64>,
     /// `Φᵀ T Φ`.
     transport: DMatrix<f64>,
@@ -72,21 +67,9 @@ impl ReducedBody {
     pub fn new(basis: ReducedBasis, centrifugal: bool, damping: &BodyDamping) -> Self {
         let (kinds, basis) = basis.by_kinds();
         let (squares, character) = (&basis.squared_frequencies, &basis.character);
-        let modal = (!damping.is_none()).then(|| ModalRates {
-            rates: damping.modal(squares, character) + squares.map(|w| damping.mass + damping.stiffness * w),
-            transport: character.transport.clone(),
-        });
-        let layer = (damping.stiffness > 0.0)
-            .then(|| Arc::new(RetardedLayer { flexibility: basis.residual.clone(), time: damping.stiffness }));
-        let (by_port, carried) = (basis.shapes.transpose(), basis.carried.as_ref().map(DMatrix::transpose));
-        Self { by_port, carried, basis, kinds, centrifugal, modal, layer }
-    }
-
-    /// Convection of the truncated modes into the rates of the kept ones, per force, and the forces that deform them;
-    /// `None` without a retarded layer.
-    fn carried<'a>(&'a self, state: &'a BodyState) -> Option<(&'a DMatrix<f64>, &'a DVector<f64>)> {
-        let forces = &state.retarded.now;
-        self.carried.as_ref().filter(|carried| carried.ncols() == forces.len()).map(|carried| (carried, forces))
+        let modal = (!damping.is_none())
+            .then(|| ModalRates { rates: damping.modal(squares, character), transport: character.transport.clone() });
+        Self { by_port: basis.shapes.transpose(), basis, kinds, centrifugal, modal }
     }
 
     /// Rates of the modes by a stream of speed 1, as they were kept or anew.
@@ -103,9 +86,6 @@ impl ReducedBody {
         fit(out, self.basis.modes());
         out.fill(0.0);
         self.kinds.add_odd(1.0, &modal.transport, &state.displacement, out);
-        if let Some((carried, forces)) = self.carried(state) {
-            add_product(1.0, carried, forces, out);
-        }
     }
 
     fn factorised(&self, a0: f64) -> Result<Factorised, MechanicsError> {
@@ -166,10 +146,6 @@ impl Equations for ReducedBody {
         state.convected = convected;
     }
 
-    fn layer(&self) -> Option<&RetardedLayer> {
-        self.layer.as_deref()
-    }
-
     fn subtract_gyroscopic(&self, rate: &DVector<f64>, load: &mut DVector<f64>) {
         self.kinds.add_odd(-1.0, &self.basis.gyroscopic, rate, load);
     }
@@ -208,8 +184,7 @@ impl BodyResponse for ReducedBody {
     fn operator(&self, a0: f64) -> Result<StepOperator, MechanicsError> {
         let basis = &self.basis;
         let Factorised { solver, flexibility: mut surface, answer } = self.factorised(a0)?;
-        let share = self.layer.as_ref().map_or(1.0, |layer| layer.share(a0));
-        vectorised::add_columns(share, basis.residual.as_slice(), surface.len(), &[1.0], surface.as_mut_slice());
+        vectorised::add_columns(1.0, basis.residual.as_slice(), surface.len(), &[1.0], surface.as_mut_slice());
         let mut modal = DMatrix::zeros(basis.shapes.nrows(), Axis::COUNT);
         let ports = modal.nrows();
         for (modal, answer) in modal.as_mut_slice().chunks_exact_mut(ports.max(1)).zip(answer.column_iter()) {
@@ -219,18 +194,14 @@ impl BodyResponse for ReducedBody {
         let momentum = modal.transpose() * square;
         let inertial_response = -(modal + &basis.rigid_residual);
         let deformation_inertia = basis.rigid.tr_mul(&answer) * -square;
-        let layer = self.layer.clone();
-        Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, layer, solver })
+        Ok(StepOperator { a0, surface, inertial_response, momentum, deformation_inertia, solver })
     }
 
     fn energy(&self, state: &BodyState, forces: &DVector<f64>, rigid_velocity: PerAxis<f64>) -> f64 {
         let basis = &self.basis;
         let (y, v) = (state.displacement.as_slice(), state.velocity.as_slice());
         let modal: f64 = y.iter().zip(basis.squared_frequencies.as_slice()).map(|(y, w)| w * y * y).sum();
-        let residual = match &self.layer {
-            Some(layer) => 2.0 * layer.energy(&state.retarded),
-            None => quadratic_form(&basis.residual, forces),
-        };
+        let residual = quadratic_form(&basis.residual, forces);
         let kinetic = dot(v, v);
         let coupling: f64 =
             rigid_velocity.iter().map(|(axis, w)| w * dot(column(&basis.rigid, axis.number()), v)).sum();
@@ -244,7 +215,7 @@ impl BodyResponse for ReducedBody {
             .modal
             .as_ref()
             .map_or(0.0, |modal| modal.dissipation(state.velocity.as_slice(), speed, &self.convected(modal, state)));
-        dashpots + modes + self.layer.as_ref().map_or(0.0, |layer| layer.dissipation(&state.retarded))
+        dashpots + modes
     }
 }
 

@@ -44,26 +44,11 @@ pub struct ReducedBasis {
     pub damping: Option<DMatrix<f64>>,
     /// Which ratios damp the modes, and their rate in the stream.
     pub character: ModeCharacter,
-    /// Rate that the static answer of the truncated modes to surface forces adds to the modes as the stream carries it,
-    /// transposed: `S K⁻¹ Tᵀ Φ` less what the modes hold of it, `2n × m`; `None`: not asked for.
-    #[serde(deserialize_with = "super::rectangle::optional")]
-    pub carried: Option<DMatrix<f64>>,
 }
 
 impl ReducedBasis {
     /// Reduces a body to its `count` lowest modes; `progress` receives the share of the work done.
     pub fn compute(system: &BodySystem, count: usize, progress: &mut dyn FnMut(f64)) -> Result<Self, MechanicsError> {
-        Self::compute_with(system, count, false, progress)
-    }
-
-    /// Reduces a body to `count` modes; with `streaming` also the convection of the truncated modes
-    /// ([`Self::carried`]).
-    pub fn compute_with(
-        system: &BodySystem,
-        count: usize,
-        streaming: bool,
-        progress: &mut dyn FnMut(f64),
-    ) -> Result<Self, MechanicsError> {
         let parts = StaticPart::all(system)?;
         let (squared_frequencies, modes) = Shapes::lowest(&parts, count, &mut |share| progress(0.9 * share))?;
         let flexibility = squared_frequencies.map(f64::recip);
@@ -84,12 +69,6 @@ impl ReducedBasis {
         let rigid = modes.project_loads(&system.rigid);
         let centrifugal = modes.project_loads(&centrifugal_load).column(0).into_owned();
         let character = ModeCharacter::new(system, &modes);
-        let carried = streaming.then(|| {
-            let loads = modes.transposed_images(&system.transport, n);
-            let mut carried = DMatrix::zeros(ports, count);
-            parts.iter().for_each(|part| part.add_surface_answer(system, &loads, &mut carried));
-            carried - &weighted * character.transport.transpose()
-        });
         let basis = Self {
             rigid_residual: rigid_static - &weighted * &rigid,
             centrifugal_residual: centrifugal_static.column(0) - &weighted * &centrifugal,
@@ -102,7 +81,6 @@ impl ReducedBasis {
                 damping
             }),
             character,
-            carried,
             squared_frequencies,
             shapes,
             residual,
@@ -144,7 +122,6 @@ impl ReducedBasis {
                 diameters: values(&character.diameters),
                 circumferential: values(&character.circumferential),
             },
-            carried: self.carried.as_ref().map(columns),
             ..self.clone()
         }
     }
@@ -163,8 +140,8 @@ impl ReducedBasis {
     }
 
     fn matrices(&self) -> impl Iterator<Item = &DMatrix<f64>> {
-        let Self { shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia, damping, carried, .. } = self;
-        [shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia].into_iter().chain(damping).chain(carried)
+        let Self { shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia, damping, .. } = self;
+        [shapes, residual, rigid, rigid_residual, gyroscopic, ale_inertia].into_iter().chain(damping)
     }
 
     /// True if all arrays belong to `ports` surface components and hold finite numbers.
@@ -180,7 +157,6 @@ impl ReducedBasis {
             && self.ale_inertia.shape() == (m, m)
             && self.character.is_consistent(m)
             && self.damping.as_ref().is_none_or(|damping| damping.shape() == (m, m))
-            && self.carried.as_ref().is_none_or(|carried| carried.shape() == (ports, m))
             && self.squared_frequencies.iter().all(|w| *w > 0.0 && w.is_finite())
             && self.matrices().all(|matrix| matrix.iter().all(|x| x.is_finite()))
             && self.centrifugal.iter().chain(&self.centrifugal_residual).all(|x| x.is_finite())

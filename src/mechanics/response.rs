@@ -16,14 +16,12 @@
 //! in/outflow (Robin) term of Paper B, eq. 12. The convective terms are small, so they are evaluated on the state
 //! before the step.
 
-pub(super) use super::retarded::fit;
-use super::retarded::{RetardedForces, RetardedLayer};
+pub(super) use super::products::fit;
 use super::solver::StepSolver;
 use crate::axes::PerAxis;
 use crate::multistep::TimeDerivative;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
 /// Speed and acceleration of the material stream: `(Ω, Ω̇)` for the wheel, `(V, V̇)` for the rail.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,8 +45,6 @@ pub struct BodyState {
     pub displacement_before: DVector<f64>,
     /// `d_t y` one step earlier.
     pub velocity_before: DVector<f64>,
-    /// Elastic forces of the residual flexibility, with stiffness-proportional damping only.
-    pub retarded: RetardedForces,
     /// `L y`, the part of the material's rate of deformation by a stream of speed 1, after steps of modes that are damped;
     /// otherwise empty.
     pub convected: DVector<f64>,
@@ -64,7 +60,6 @@ impl BodyState {
             acceleration: z.clone(),
             displacement_before: z.clone(),
             velocity_before: z,
-            retarded: RetardedForces::default(),
             convected: DVector::zeros(0),
         }
     }
@@ -130,8 +125,6 @@ pub struct StepOperator {
     pub momentum: DMatrix<f64>,
     /// Rate of deformation momentum per unit rigid acceleration, `3 × 3`.
     pub deformation_inertia: DMatrix<f64>,
-    /// Retarded part of the surface displacement, if there is any; its share is in [`Self::surface`].
-    pub layer: Option<Arc<RetardedLayer>>,
     /// Solves the equations of the step.
     pub solver: Box<dyn StepSolver>,
 }
@@ -149,8 +142,6 @@ pub struct FreeResponse {
     pub(super) acceleration: DVector<f64>,
     pub(super) velocity: DVector<f64>,
     pub(super) product: DVector<f64>,
-    /// Elastic forces of a retarded layer before the contact is solved.
-    pub retarded: DVector<f64>,
 }
 
 impl Default for BodyState {
@@ -164,6 +155,6 @@ impl Default for FreeResponse {
     fn default() -> Self {
         let empty = || DVector::zeros(0);
         let (surface, load, acceleration, velocity, product) = (empty(), empty(), empty(), empty(), empty());
-        Self { surface, momentum: PerAxis::default(), load, acceleration, velocity, product, retarded: empty() }
+        Self { surface, momentum: PerAxis::default(), load, acceleration, velocity, product }
     }
 }

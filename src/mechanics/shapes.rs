@@ -149,18 +149,6 @@ impl Shapes {
         projected
     }
 
-    /// `Aᵀ Φ` for a matrix of a body with `n` unknowns.
-    pub fn transposed_images(&self, matrix: &CsrMatrix, n: usize) -> DMatrix<f64> {
-        let mut images = DMatrix::zeros(n, self.count());
-        let shapes = self.rows(0..n);
-        for (mut image, shape) in images.column_iter_mut().zip(shapes.column_iter()) {
-            for (row, weight) in shape.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
-                matrix.row(row).for_each(|(column, value)| image[column] += weight * value);
-            }
-        }
-        images
-    }
-
     /// `S Φ` for some unknowns `S`, all of them if they are `0..n`.
     pub fn rows(&self, unknowns: impl Iterator<Item = usize> + Clone) -> DMatrix<f64> {
         let mut rows = DMatrix::zeros(unknowns.clone().count(), self.count());

@@ -31,18 +31,18 @@ pub fn check_size(config: &Config) -> Result<(), MechanicsError> {
 fn check(config: &Config, zone: ContactZone) -> Result<(), MechanicsError> {
     let damped = [BodyDamping::wheel(config), BodyDamping::rail(config)].iter().any(|damping| !damping.is_none());
     let with_modes = config.solver.response.is_reduced() || damped;
-    let check = |body, parameter, unknowns: f64, modes: usize| {
+    let check = |body, unknowns: f64, modes: usize| {
         if unknowns > LARGEST_UNKNOWNS {
             return Err(MechanicsError::TooLarge { body, unknowns, limit: LARGEST_UNKNOWNS, causes: causes(config) });
         }
         let memory = 8.0 * unknowns * crate::linalg::modes::usual_space(modes) as f64;
         if with_modes && memory > LARGEST_KRYLOV {
-            return Err(MechanicsError::TooManyModes { parameter, modes, unknowns, memory, limit: LARGEST_KRYLOV });
+            return Err(MechanicsError::TooManyModes { body, modes, unknowns, memory, limit: LARGEST_KRYLOV });
         }
         Ok(())
     };
-    check("wheel", "solver.modes_wheel", wheel_unknowns(config, zone)?, config.solver.modes_wheel)?;
-    check("rail", "solver.modes_rail", rail_unknowns(config, zone)?, config.solver.modes_rail)
+    check("wheel", wheel_unknowns(config, zone)?, config.solver.modes_wheel)?;
+    check("rail", rail_unknowns(config, zone)?, config.solver.modes_rail)
 }
 
 /// Values of the parameters from which the number of unknowns follows.
@@ -142,7 +142,7 @@ mod tests {
         let mut config = paper_d(60);
         config.solver.modes_wheel = 200;
         let error = check_size(&config).unwrap_err();
-        assert!(matches!(error, MechanicsError::TooManyModes { parameter: "solver.modes_wheel", .. }), "{error}");
+        assert!(matches!(error, MechanicsError::TooManyModes { body: "wheel", .. }), "{error}");
         config.solver.response = Response::Full;
         assert_eq!(check_size(&config), Ok(()));
     }

@@ -103,7 +103,6 @@ impl ReducedBasis {
             residual,
             rigid_residual: rows_between(between, &self.rigid_residual),
             centrifugal_residual: rows_between(between, &centrifugal).column(0).into_owned(),
-            carried: self.carried.as_ref().map(|carried| rows_between(between, carried)),
             shapes,
             ..self.clone()
         }
@@ -185,7 +184,7 @@ mod tests {
         let systems = [(wheel_system(&config).unwrap(), 1.0), (rail_system(&config).unwrap(), -1.0)];
         systems.map(|(system, side)| {
             let ports = SmoothPorts::new(&contact_zone(&config).surface_x()).unwrap();
-            let basis = ReducedBasis::compute_with(&system, 40, true, &mut |_| {}).unwrap();
+            let basis = ReducedBasis::compute(&system, 40, &mut |_| {}).unwrap();
             let (smooth, turns) = (basis.smooth(&ports, half_plane, side), side > 0.0);
             let reduced = [basis, smooth].map(|basis| ReducedBody::new(basis, turns, damping));
             let full = FullBody::damped(system, turns, damping, 40).unwrap();
@@ -273,10 +272,13 @@ mod tests {
         (1..=30).map(step).collect()
     }
 
+    /// In the rail the stream carries much of what the truncated modes hold, which only the full body knows.
     #[test]
-    fn bodies_damped_with_their_stiffness_move_alike_with_all_nodes_and_points() {
-        let damping = BodyDamping { ratios: [3e-2, 2e-2, 5e-2, 1e-2], mass: 30.0, stiffness: 2e-6 };
-        for Twice { reduced: [nodes, reduced], full, ports, .. } in twice(&damping) {
+    fn damped_bodies_move_alike_with_all_nodes_and_points() {
+        let damping = BodyDamping { ratios: [3e-2, 2e-2, 5e-2, 1e-2] };
+        for (Twice { reduced: [nodes, reduced], full, ports, .. }, carried) in
+            twice(&damping).into_iter().zip([2e-2, 0.1])
+        {
             let [at_nodes, modal, elements] =
                 [(&nodes as &dyn BodyResponse, false), (&reduced, true), (&full, true)].map(|(b, p)| run(b, &ports, p));
             // Largest difference over the largest value.
@@ -293,7 +295,7 @@ mod tests {
             let coordinates = worst(&mut steps.map(|(a, b)| ((a - b).amax(), b.amax())));
             println!("from elements: surface {surface:.1e}, power {power:.1e}, energy {energy:.1e}");
             println!("coordinates from those by nodes: {coordinates:.1e}");
-            assert!(surface < 2e-3 && power < 2e-2 && energy < 2e-2 && coordinates < 1e-6);
+            assert!(surface < 2e-3 && power < carried && energy < 2e-2 && coordinates < 1e-6);
         }
     }
 }

@@ -18,15 +18,7 @@ pub fn energy(model: &RollingModel, state: &State) -> f64 {
     model.wheel.energy(velocities)
         + model.bodies.energy(state, velocities)
         + model.bodies.energy_of_contact(state)
-        + model.wheel.sideways.energy(state.motion.lateral.now, &state.side)
         + state.sum(|line| line.contact.traction.yielding.springing_work)
-}
-
-/// Power that damping and open ends take out of bodies, track and what carries the contact sideways [W/m].
-fn dissipation(model: &RollingModel, state: &State) -> f64 {
-    model.bodies.dissipation(state)
-        + state.sum(|line| line.contact.damping)
-        + model.wheel.sideways.dissipation(&state.side)
 }
 
 /// Forces and moment on the wheel, by whoever holds it, that work on its [`drift`](super::state::Motion::drift), and what lifts it
@@ -39,7 +31,7 @@ pub fn drifting(state: &State) -> [f64; 4] {
 /// Balance at a stationary start.
 pub fn start(model: &RollingModel, state: &State) -> Audit {
     let energy = energy(model, state);
-    Audit { initial_energy: energy, energy, damping_power: dissipation(model, state), ..Audit::default() }
+    Audit { initial_energy: energy, energy, damping_power: model.bodies.dissipation(state), ..Audit::default() }
 }
 
 /// Balance after a step from `state` to `next`, whose motion, bodies, contact and hub forces are complete.
@@ -61,7 +53,7 @@ pub fn advance(model: &RollingModel, td: &TimeDerivative, state: &State, next: &
     let forces = [state, next].map(|state| state.resultant().height);
     let damper = [state, next].map(|state| model.wheel.damper_force(state));
     let damper = td.impulse(damper[1], damper[0], before.damper);
-    let damping_power = dissipation(model, next);
+    let damping_power = model.bodies.dissipation(next);
     let damped = td.impulse(damping_power, before.damping_power, before.damped);
     Audit {
         initial_energy: before.initial_energy,

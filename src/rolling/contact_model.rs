@@ -14,7 +14,7 @@ use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
     ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction,
-    LineLayout, LineProblem, RetardedSurface, SteelLimits, SurfaceResponse, Traction, Undeformed,
+    LineLayout, LineProblem, SteelLimits, SurfaceResponse, Traction, Undeformed,
 };
 use crate::material::{INDENTATION, Isotropic, YIELD_IN_SHEAR};
 use crate::mechanics;
@@ -299,11 +299,6 @@ fn surface_response<'a>(step: &'a ContactStep) -> SurfaceResponse<'a> {
         inertial: &operators.wheel.inertial_response,
         momentum: &operators.wheel.momentum,
         deformation_inertia: &operators.wheel.deformation_inertia,
-        retarded: [(&operators.wheel, wheel), (&operators.rail, rail)].map(|(operator, free)| {
-            let layer = operator.layer.as_ref()?;
-            let share = layer.share(operator.a0);
-            Some(RetardedSurface { flexibility: &layer.flexibility, share, known: &free.retarded, time: layer.time })
-        }),
     }
 }
 

@@ -214,7 +214,7 @@ outputs! {
         "Heat conducted from wheel to rail across the interface";
     604 heat_to_hub: real "heat.to_hub", in "W" as "kW", nominal 1e3, "Heat from the wheel into the hub";
     605 heat_to_air: real "heat.to_air", in "W" as "kW", nominal 1e3,
-        "Heat from the wheel to air and surroundings by thermal.convection and thermal.emissivity";
+        "Heat from the wheel to air by thermal.convection";
     620 thermal_growth: real "thermal.growth", in "m" as "mm", nominal 1e-5,
         "Growth of the wheel radius by its bulk temperature";
     701 austenitised_time: real "damage.time_above_ac1", in "s", from 0.0, nominal 1e-2, start zero,
@@ -264,8 +264,8 @@ outputs! {
         "Surface fatigue index: contact.force_x and contact.force_z together over contact.force_y, less the yield strength in shear over contact.pressure_max; \
          fatigue of the surface is to be expected where it is positive; -1 without contact";
     715 wear_rate: real "damage.wear_rate", in "kg/m" as "mg/m", from 0.0, nominal 1e-6,
-        "Mass that the wheel loses per distance rolled by wear: the law of damage.wear_mild and the like for damage.t_gamma over the area of the \
-         contact, in three regimes; damage.wear says whether its profile changes by it";
+        "Mass that the wheel loses per distance rolled by wear: in three regimes of damage.t_gamma over the area of the \
+         contact, times damage.wear_factor; damage.wear says whether its profile changes by it";
     716 worn_mass: real "damage.worn_mass", in "kg" as "g", from 0.0, nominal 1e-3, start zero,
         "Mass that wear has taken off the wheel since the start; 0 with damage.wear = off";
     717 worn_depth: real "damage.worn_depth", in "m" as "mm", from 0.0, nominal 1e-5, start zero,

@@ -2,7 +2,6 @@
 
 use super::elevation::Rise;
 use super::line::Line;
-use super::sideways::SideMotion;
 use super::support::BaseMotion;
 use super::wheelset::Pose;
 use crate::axes::PerAxis;
@@ -29,8 +28,6 @@ pub struct State {
     pub rise: Rise,
     /// Motion of the base of the rail.
     pub base: BaseMotion,
-    /// Deflections in z of tread and rail head.
-    pub side: SideMotion,
     /// Contact lines side by side.
     pub lines: Vec<Line>,
     /// How long heat has not spread from line to line.

@@ -301,7 +301,7 @@ fn solve_and_commit(
     model.bodies.free_responses(&operators, state, td, streams, &mut workspace.free);
     let free = &workspace.free;
     let place = place(&state.motion, *speeds, *dt);
-    let side = model.wheel.sideways.step(&state.motion.lateral, &state.side, drives.lateral, td);
+    let side = model.wheel.sideways.step(&state.motion.lateral, drives.lateral, td);
     let lateral = side.motion(state.resultant().lateral);
     let contact = ContactStep {
         operators: &operators,
@@ -325,8 +325,7 @@ fn solve_and_commit(
     let rigid = next.rigid();
     next.motion = moved(&state.motion, [td, of_height], rigid, *dt);
     next.motion.guide(&contact.drift, rigid, Pose::of(demand.target));
-    next.side = state.side;
-    let aside = side.advance(next.resultant().lateral, td, &mut next.motion.lateral, &mut next.side);
+    let aside = side.advance(next.resultant().lateral, td, &mut next.motion.lateral);
     next.motion.aside = moved_by(state.motion.aside, &state.motion.lateral, next.motion.lateral.now, *dt);
     model.bodies.commit(&operators, free, next.motion.accelerations(), td, state, next);
     let mut driving = {

@@ -192,7 +192,7 @@ fn mechanics(error: &MechanicsError, config: &Config) -> String {
 }
 
 fn body(config: &Config) -> String {
-    config.told("change {solver.modes_wheel now} and {solver.modes_rail now}, or choose solver.response = full")
+    config.told("change {mesh.elements_per_half_width now}, or choose solver.response = full")
 }
 
 #[cfg(test)]
@@ -231,7 +231,7 @@ mod tests {
             (failed_step(&StepError::Heat(heat), &config), "thermal.conductance"),
             (failed_step(&StepError::BelowAbsoluteZero { temperature: -1.0 }, &config), "thermal.reference"),
             (failed_start(&StepError::Unsettled, &config, &Inputs::rolling(&config)), "initial.velocity"),
-            (failed_preparation(&PrepareError::Mechanics(modes.into()), &config), "solver.modes_wheel"),
+            (failed_preparation(&PrepareError::Mechanics(modes.into()), &config), "mesh.elements_per_half_width"),
             (failed_preparation(&PrepareError::Mechanics(zone.into()), &config), "model.nominal_load"),
         ] {
             assert!(text.contains(name) && text.contains("(now ") | text.contains("gentler"), "{text}");

@@ -12,5 +12,4 @@ pub(super) fn is_plausible(state: &State) -> bool {
         && state.clock.control.step >= SHORTEST_STEP
         && state.motion.values().iter().all(|(_, value)| value.is_finite())
         && [state.motion.distance, state.motion.angle, state.motion.aside].iter().all(|value| value.is_finite())
-        && state.side.deflection.iter().chain(&state.side.velocity).all(|history| history.now.is_finite())
 }

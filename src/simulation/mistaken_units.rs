@@ -114,7 +114,7 @@ mod tests {
             ("initial.velocity", 120.0, 27.8, "33.3333"),
             ("initial.creepage", 1.0, 0.0, "0.01"),
             ("friction.coefficient", 5.0, 0.3, "0.05"),
-            ("thermal.reference_pressure", 500.0, 500e6, "5e8"),
+            ("material.yield_strength", 550.0, 550e6, "5.5e8"),
             ("material.latent_heat", 270.0, 270e3, "270000"),
             ("vehicle.mass", 9.872, 9872.0, "9872"),
             ("thermal.tread_point", 180.0, 0.0, "3.14159"),

@@ -249,7 +249,7 @@ impl Simulation {
     pub fn loses_energy(&self, rise: f64) -> bool {
         let config = self.model().config();
         let goes_along = UNBALANCED * config.model.nominal_load * rise.min(MOST_RISE);
-        !config.damping.modal || self.missing_energy().0 > goes_along
+        config.damping.is_none() || self.missing_energy().0 > goes_along
     }
 
     /// Largest error of the force over a sharp hole of a `length` \[m] by the grid, over the load \[1].
@@ -298,11 +298,9 @@ impl Simulation {
         let torsion = self.model().rolling.torsion;
         let late = torsion.frequency * law.memory_length / slip;
         let fall = law.fall(self.state().available_friction, slip) / (1.0 + late * late);
-        let damping = &config.damping;
-        let rayleigh = damping.rayleigh_mass + damping.rayleigh_stiffness * torsion.frequency * torsion.frequency;
-        let modal = if damping.modal { 2.0 * damping.wheel_torsion * torsion.frequency } else { 0.0 };
+        let damping = 2.0 * config.damping.wheel_torsion * torsion.frequency;
         let mass = config.material.density * torsion.rim_area * config.width();
-        fall * self.outputs().contact_force_y > (modal + rayleigh) * mass
+        fall * self.outputs().contact_force_y > damping * mass
     }
 
     /// Mean slip velocity of the tread [m/s].

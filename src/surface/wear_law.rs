@@ -24,18 +24,17 @@ pub struct WearLaw {
 
 impl From<&Config> for WearLaw {
     fn from(config: &Config) -> Self {
-        let damage = &config.damage;
-        Self {
-            mild: damage.wear_mild,
-            severe: damage.wear_severe,
-            catastrophic: damage.wear_catastrophic,
-            severe_from: damage.wear_severe_from,
-            catastrophic_from: damage.wear_catastrophic_from,
-        }
+        let Self { mild, severe, catastrophic, .. } = Self::R8T;
+        let [mild, severe, catastrophic] = [mild, severe, catastrophic].map(|wear| wear * config.damage.wear_factor);
+        Self { mild, severe, catastrophic, ..Self::R8T }
     }
 }
 
 impl WearLaw {
+    /// That of the source.
+    pub const R8T: Self =
+        Self { mild: 5.3e-9, severe: 55e-3, catastrophic: 61.9e-9, severe_from: 10.4e6, catastrophic_from: 77.2e6 };
+
     /// Mass per distance [kg/m] where the energy `t_gamma` \[N], Tγ, is dissipated per distance over the contact area
     /// `area` \[m²]. All three may be per metre of width.
     pub fn rate(&self, t_gamma: f64, area: f64) -> f64 {

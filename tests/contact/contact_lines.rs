@@ -5,7 +5,7 @@ use crate::common::{self, KMH, preset};
 use crate::half_planes::{FRICTION, HalfPlanes, NOMINAL, RADIUS, SideLine, modulus};
 use std::f64::consts::PI;
 use wheelrail::analytic::{carter_force, carter_full_slip, hertz_half_width};
-use wheelrail::config::{Config, StartTemperature, Wear};
+use wheelrail::config::{Config, Damping, StartTemperature, Wear};
 use wheelrail::mechanics::{Basis, bodies};
 use wheelrail::piecewise::Piecewise;
 use wheelrail::rolling::outputs::observe;
@@ -141,7 +141,7 @@ fn lines_of_a_part_of_the_width_and_equal_load_are_one_line_on_a_rough_rail_with
     let mut config = preset("railway", 8);
     config.rail.profile = "sinusoid(amplitude = 10e-6, wavelength = 0.05)".into();
     (config.rail.support_stiffness, config.rail.support_damping) = (5e7, 5e4);
-    config.damping.rayleigh_stiffness = 2e-7;
+    config.damping = Damping::all(0.02);
     compare("rough rail", (&config, &braking(&config)), vary, (5e-4, 30), &[&HALVES]);
 }
 

@@ -165,7 +165,7 @@ fn with_width(width: f64) -> Config {
     let mut config = preset("railway", ELEMENTS);
     config.model.contact_width = width;
     config.tuning.softening = 0.0;
-    (config.physics.centrifugal, config.physics.thermal_expansion) = (false, false);
+    (config.physics.centrifugal, config.material.expansion) = (false, 0.0);
     config.initial.temperature = StartTemperature::Stationary;
     // Equal temperatures of both surfaces.
     config.thermal.conductance = 1e9;

@@ -146,7 +146,7 @@ fn closed_solution(config: &Config, a: f64, power: &dyn Fn(f64) -> f64) -> Vec<[
 #[test]
 fn a_locked_wheel_has_the_temperatures_of_two_half_planes_from_3_ms_to_1_s() {
     let mut config = preset("railway", 20);
-    config.physics.thermal_expansion = false;
+    config.material.expansion = 0.0;
     // The closed solution is that of the plane.
     config.thermal.cross_section = CrossSection::Contact;
     (config.tuning.softening, config.tuning.tolerance) = (0.0, 0.0);

@@ -79,7 +79,7 @@ fn difference(a: &[Outputs], b: &[Outputs], output: impl Fn(&Outputs) -> f64) ->
 fn a_sliding_contact_in_the_wings_is_that_of_a_model_laid_out_for_it() {
     let runs = [(1.0, 20), (9.0, 8)].map(|(laid_out, elements)| {
         let model = laid_out_for(laid_out, elements, |config| {
-            (config.physics.thermal_expansion, config.physics.yielding) = (false, false);
+            (config.material.expansion, config.physics.yielding) = (0.0, false);
             // A molten film holds friction by its thickness, which differs by 3 % between these meshes.
             config.material.latent_heat = 0.0;
             // From a cold start both alternate for long between friction at its floor and above it, by up to 8 %, each

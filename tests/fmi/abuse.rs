@@ -354,7 +354,7 @@ impl<'a> Master<'a> {
         let status = self.slave.set_real(name, value);
         let silent = !self.is_early();
         self.check(format!("SetReal({name} = {value:?})"), status, expect(self.is_early() || tunable), silent);
-        let flag = self.random.of(&["thermal.enabled", "physics.centrifugal", "physics.thermal_expansion"]);
+        let flag = self.random.of(&["thermal.enabled", "physics.yielding", "physics.thermoelastic_heating"]);
         let on = self.random.below(2) == 0;
         let status = self.slave.set_boolean(flag, on);
         self.check(format!("SetBoolean({flag} = {on})"), status, expected, false);
@@ -580,8 +580,7 @@ fn number(variable: &str) -> Option<u64> {
 }
 
 fn abuse(seed: u64, calls: usize) {
-    let mut config = common::preset("railway", 4);
-    (config.solver.modes_wheel, config.solver.modes_rail) = (6, 4);
+    let config = common::preset("railway", 4);
     common::model(config);
     let dll = load();
     let mut master = Master::new(&dll, seed);

@@ -9,6 +9,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use wheelrail::config::value::Value;
 use wheelrail::config::{Config, Tuning};
 use wheelrail::contact::FrictionLaw;
+use wheelrail::surface::WearLaw;
 
 /// Part of a value by which a rounded default may differ from the formula of its source.
 const ROUNDED: f64 = 0.005;
@@ -84,9 +85,7 @@ fn heat() -> Vec<Sourced> {
             EXACT,
             "chosen: ten times that from which contact is perfect, docs/thesis.md, B 15",
         ),
-        ("thermal.reference_pressure", 500e6, EXACT, "chosen: about the mean pressure of a patch"),
         ("thermal.heat_ratio", 1.0, EXACT, "all work of friction is heat"),
-        ("thermal.wheel_share", 0.5, EXACT, "equal bodies"),
         ("thermal.max_speed", 60.0, EXACT, "chosen: layers for 216 km/h"),
         ("thermal.smallest_load_ratio", 0.5, EXACT, "chosen: layers for half of the load"),
         ("thermal.tread_angle", FRAC_PI_2, EXACT, "blocks at the height of the axle"),
@@ -94,7 +93,6 @@ fn heat() -> Vec<Sourced> {
         ("thermal.rim_width", 0.135, EXACT, "common wheels, docs/theory/width-of-conduction.md, section 4"),
         ("thermal.rim_depth", 0.06, EXACT, section),
         ("thermal.web_width", 0.025, EXACT, section),
-        ("thermal.boss_width", 0.17, EXACT, section),
         ("thermal.boss_radius", 0.13, EXACT, section),
         ("thermal.head_width", 0.072, EXACT, "head of the rail 60E1, EN 13674-1"),
         ("thermal.block_width", 0.08, EXACT, section),
@@ -103,7 +101,6 @@ fn heat() -> Vec<Sourced> {
 
 fn damage() -> Vec<Sourced> {
     let history = "chosen: docs/theory/material-history.md, section 3";
-    let wear = "Braghin, Lewis, Dwyer-Joyce, Bruni, Wear 261 (2006) 1253-1264";
     let [ac1, ms] = andrews([0.50, 0.75, 0.25, 0.35]);
     vec![
         ("thermal.austenitisation", ac1, ROUNDED, "Andrews' formula, docs/theory/material-history.md"),
@@ -111,11 +108,7 @@ fn damage() -> Vec<Sourced> {
         ("damage.critical_cooling", 50.0, EXACT, history),
         ("damage.threshold", 300.0, EXACT, history),
         ("damage.resolution", 1.0, EXACT, "the usual size"),
-        ("damage.wear_mild", 5.3e-9, EXACT, wear),
-        ("damage.wear_severe", 55e-3, EXACT, wear),
-        ("damage.wear_catastrophic", 61.9e-9, EXACT, wear),
-        ("damage.wear_severe_from", 10.4e6, EXACT, wear),
-        ("damage.wear_catastrophic_from", 77.2e6, EXACT, wear),
+        ("damage.wear_factor", 1.0, EXACT, "the source itself"),
     ]
 }
 
@@ -153,13 +146,26 @@ fn defaults_of_steel_friction_heat_damping_and_damage_are_those_of_their_sources
     assert!(unknown.is_empty(), "say where these are from: {unknown:?}");
 }
 
-/// Braghin's regimes of wear join: what is severe begins where mild wear has grown to it, within the digits of the source.
+/// Numbers of Braghin, Lewis, Dwyer-Joyce, Bruni, *Wear* 261 (2006) 1253–1264. The regimes join: what is severe begins where mild
+/// wear has grown to it, within the digits of the source.
 #[test]
-fn mild_wear_has_grown_to_severe_wear_where_that_begins() {
-    let damage = Config::default().damage;
-    let grown = damage.wear_mild * damage.wear_severe_from / damage.wear_severe;
+fn wear_has_the_numbers_of_its_source_and_mild_wear_has_grown_to_severe_wear_where_that_begins() {
+    let law = WearLaw::from(&Config::default());
+    assert_eq!([law.mild, law.severe, law.catastrophic], [5.3e-9, 55e-3, 61.9e-9]);
+    assert_eq!([law.severe_from, law.catastrophic_from], [10.4e6, 77.2e6]);
+    let grown = law.mild * law.severe_from / law.severe;
     println!("{grown:.4} of it");
     assert!((grown - 1.0).abs() < 5e-3);
+}
+
+/// Values that no parameter sets.
+#[test]
+fn values_that_are_no_parameters_are_those_of_their_pages() {
+    let Config { thermal, physics, solver, .. } = Config::default();
+    assert_eq!((thermal.wheel_share, physics.centrifugal), (0.5, true));
+    assert_eq!((solver.modes_wheel, solver.modes_rail), (80, 40));
+    // The boss of docs/theory/width-of-conduction.md, section 4.
+    assert!((thermal.rim_width * thermal.boss - 0.17).abs() < 1e-12);
 }
 
 /// Friction that falls with the slip follows its law over the 25 µm of the presets where none are given
@@ -215,7 +221,6 @@ fn presets_have_the_friction_of_polachs_table_and_the_steel_of_the_thesis() {
             ("material.specific_heat", 460.0),
             ("friction.softening_floor", 0.2),
             ("thermal.conductance", 1e7),
-            ("thermal.reference_pressure", 50e6),
             ("thermal.heat_ratio", 0.1),
         ];
         let mut paper: Vec<_> = values.map(|(name, value)| (name, value, EXACT, thesis)).into();

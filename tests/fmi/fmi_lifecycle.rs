@@ -148,7 +148,7 @@ fn explicit_parameters_override_the_preset_in_any_order() {
     let dll = load();
     let slave = Slave::coarse(&dll);
     assert_eq!(slave.set_real("wheel.hub_mass", 77.0), fmi2OK);
-    assert_eq!(slave.set_boolean("physics.centrifugal", false), fmi2OK);
+    assert_eq!(slave.set_boolean("physics.yielding", false), fmi2OK);
     assert_eq!(slave.set_string("preset", "paper_d"), fmi2OK);
     assert_eq!(slave.set_integer("thermal.hub", 2), fmi2OK);
     assert_eq!(slave.enter(), fmi2OK);
@@ -157,7 +157,7 @@ fn explicit_parameters_override_the_preset_in_any_order() {
     assert_eq!(slave.real("wheel.radius"), 0.5);
     assert_eq!(slave.integer("mesh.elements_per_half_width"), 4);
     assert_eq!(slave.integer("thermal.hub"), 2);
-    assert!(!slave.boolean("physics.centrifugal"));
+    assert!(!slave.boolean("physics.yielding"));
     // inputs follow until they are set
     assert_eq!((slave.real("drive.load"), slave.real("rail.friction")), (100e3, 0.4));
     assert!((slave.real("drive.omega") * 0.5 - slave.real("drive.velocity")).abs() < 1e-12);
@@ -191,7 +191,7 @@ fn bad_values_are_refused_by_name_value_and_range() {
 
     let slave = Slave::coarse(&dll);
     slave.refused(slave.set_real("wheel.radius", 0.0), &["wheel.radius", "0.01 to 10 m"]);
-    slave.refused(slave.set_integer("solver.modes_wheel", 0), &["solver.modes_wheel", "1 to 200"]);
+    slave.refused(slave.set_integer("contact.lines", 0), &["contact.lines", "1 to 13"]);
     assert_eq!(slave.set_real("wheel.hub_radius", 0.4), fmi2OK, "the rim may follow");
     assert_eq!(slave.set_real("wheel.radius", 0.42), fmi2OK, "the hub may follow");
     assert_eq!(slave.enter(), fmi2OK);
@@ -206,10 +206,12 @@ fn value_references_of_retired_parameters_are_refused_by_name_and_nothing_is_set
     let dll = load();
     let slave = Slave::coarse(&dll);
     let load = variable("drive.load").reference;
-    slave.refused(
-        slave.set_reals(&[load, 1094], &[7e4, 0.5]),
-        &["1094", "solver.theta was retired in 0.2.0 (last in 0.1.1)"],
-    );
+    for (number, refusal) in [
+        (1094, "solver.theta was retired in 0.2.0 (last in 0.1.1)"),
+        (1137, "damping.rayleigh_stiffness was retired in 0.21.0 (last in 0.20.0)"),
+    ] {
+        slave.refused(slave.set_reals(&[load, number], &[7e4, 0.5]), &[&number.to_string(), refusal]);
+    }
     assert_eq!(slave.enter(), fmi2OK);
     assert_eq!(slave.real("drive.load"), 100e3);
 }

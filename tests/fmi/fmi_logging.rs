@@ -11,7 +11,6 @@ use wheelrail::simulation::{CACHE_VARIABLE, basis_file_name};
 fn forget_basis(change: impl Fn(&mut Config)) {
     let mut config = Config::default();
     config.mesh.elements_per_half_width = 4;
-    (config.solver.modes_wheel, config.solver.modes_rail) = (6, 4);
     change(&mut config);
     let cache = std::path::PathBuf::from(std::env::var(CACHE_VARIABLE).expect("cargo sets the cache of tests"));
     let _ = std::fs::remove_file(cache.join("basis").join(basis_file_name(&config)));

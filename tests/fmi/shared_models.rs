@@ -11,7 +11,6 @@ use wheelrail::simulation::{BasisStore, Drive, Inputs, Model, Simulation, basis_
 /// A wheel that is quick to prepare and that no other test uses.
 fn coarse(radius: f64) -> Config {
     let mut config = preset("railway", 4);
-    (config.solver.modes_wheel, config.solver.modes_rail) = (3, 2);
     config.wheel.radius = radius;
     config
 }

@@ -147,7 +147,6 @@ impl HalfPlanes {
                     inertial: &self.none[1],
                     momentum: &self.none[2],
                     deformation_inertia: &self.none[3],
-                    retarded: [None; 2],
                 },
                 membrane: [&flat, &flat],
                 time: TimeDerivative::default(),

@@ -31,7 +31,7 @@ fn a_standing_warm_wheel_cools_over_the_depth_as_half_spaces_in_contact_do() {
     let mut config = preset("railway", 20);
     config.thermal.cross_section = CrossSection::Contact;
     config.thermal.wheel_excess = 200.0;
-    (config.physics.thermal_expansion, config.initial.velocity) = (false, 0.0);
+    (config.material.expansion, config.initial.velocity) = (0.0, 0.0);
     let diffusivity = config.material.conductivity / (config.material.density * config.material.specific_heat);
     let (reference, excess) = (config.thermal.reference, config.thermal.wheel_excess);
     let (mut simulation, inputs) = held(config, 0.0, 0.0);

@@ -186,7 +186,7 @@ fn models(start: StartTemperature) -> [RollingModel; 2] {
     config.solver.response = Response::Reduced;
     config.initial.temperature = start;
     // The flash model has no swelling, and a friction that follows the flash varies from step to step.
-    (config.physics.thermal_expansion, config.tuning.softening) = (false, 0.0);
+    (config.material.expansion, config.tuning.softening) = (0.0, 0.0);
     let basis = common::store().find(&config).unwrap();
     let basis = basis.map_or_else(|| Basis::compute(&config, &mut |_, _| {}).unwrap(), |(basis, _)| basis);
     let [flash, tensor] = [(); 2].map(|()| {

@@ -122,7 +122,7 @@ fn growth_on_rigid_hub(config: &Config, warmth: f64) -> f64 {
 fn full_slide_of_two_fast_surfaces_reaches_the_flash_temperature() {
     let mut config = preset("railway", 20);
     (config.tuning.falling_ratio, config.tuning.softening) = (1.0, 0.0);
-    config.physics.thermal_expansion = false;
+    config.material.expansion = 0.0;
     config.thermal.conductance = 1e9;
     // The closed form is that of the plane, in which nothing yields or melts.
     config.physics.yielding = false;

@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
-use wheelrail::config::{ConductanceLaw, Config, Hub};
+use wheelrail::config::{Config, Hub};
 use wheelrail::heat::{
     Exchange, Heat, HeatConfig, HeatFlows, HeatLine, HeatModel, HeatScratch, HeatSource, HeatState, Observation,
     Temperatures,
@@ -42,7 +42,7 @@ pub fn config(load: f64, max_speed: f64) -> HeatConfig {
     let material = &mut config.material;
     (material.conductivity, material.specific_heat, material.density) = (45.0, 460.0, 8000.0);
     let thermal = &mut config.thermal;
-    (thermal.conductance_law, thermal.conductance) = (ConductanceLaw::Constant, 1e7);
+    thermal.conductance = 1e7;
     (thermal.heat_ratio, thermal.wheel_share, thermal.convection, thermal.hub) = (0.1, 0.5, 0.0, Hub::Fixed);
     (thermal.max_speed, thermal.smallest_load_ratio) = (max_speed, 1.0);
     config

@@ -2,14 +2,14 @@
 
 use crate::common::*;
 use std::sync::Arc;
-use wheelrail::config::Config;
+use wheelrail::config::{Config, Damping};
 use wheelrail::simulation::{Inputs, Model, Simulation, Vertical};
 
 /// Elastic bodies without heat, friction or damping.
 fn elastic(lines: usize, elements: usize, hub_mass: f64) -> Config {
     let mut config = preset("railway_ellipse", elements);
     config.contact.lines = lines;
-    (config.thermal.enabled, config.physics.yielding, config.damping.modal) = (false, false, false);
+    (config.thermal.enabled, config.physics.yielding, config.damping) = (false, false, Damping::NONE);
     (config.wheel.hub_mass, config.vehicle.damping) = (hub_mass, 0.0);
     config
 }
@@ -100,7 +100,7 @@ fn a_dropped_wheel_strikes_as_hertz_says_and_comes_back() {
 fn a_wheel_that_bounces_until_it_rests_has_lost_no_momentum() {
     for step in [1e-3_f64, 2e-4] {
         let mut config = elastic(5, 6, 277.0);
-        (config.vehicle.damping, config.damping.modal) = (1e5, true);
+        (config.vehicle.damping, config.damping) = (1e5, Damping::default());
         let model = model(config);
         let (mut simulation, inputs) = dropped(&model, 1e-4, 1e5);
         let height = simulation.outputs().hub_height;
@@ -125,7 +125,7 @@ fn a_wheel_that_bounces_until_it_rests_has_lost_no_momentum() {
 #[test]
 fn momentum_is_the_impulse_of_forces_that_jump() {
     let mut config = elastic(3, 6, 277.0);
-    config.damping.modal = true;
+    config.damping = Damping::default();
     let model = model(config);
     for step in [1e-3_f64, 5e-3, 2e-2] {
         let mut inputs = Inputs::rolling(model.config());

@@ -65,7 +65,7 @@ fn a_chilled_tread_changes_the_creepage_of_free_rolling_by_what_finer_meshes_ten
     let shift = |elements| {
         let creepage = |expansion| {
             let mut config = preset("railway", elements);
-            config.physics.thermal_expansion = expansion;
+            config.material.expansion *= f64::from(u8::from(expansion));
             config.thermal.wheel_excess = 300.0;
             config.initial.temperature = StartTemperature::Stationary;
             let model = model(config);

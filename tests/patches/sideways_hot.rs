@@ -3,7 +3,7 @@
 
 use crate::common::*;
 use std::sync::Arc;
-use wheelrail::config::{Config, Wear};
+use wheelrail::config::{Config, Damping, Wear};
 use wheelrail::simulation::{Inputs, Model, Outputs, Simulation};
 
 /// The hot elliptical patch on five lines; with `lateral` creepage.
@@ -64,7 +64,7 @@ fn energy_is_kept_while_everything_varies_on_worn_flattened_and_even_surfaces() 
     type Change = fn(&mut Config);
     let cases: [(&str, Change); 5] = [
         ("even", |_| {}),
-        ("damped", |config| config.damping.rayleigh_stiffness = 1e-7),
+        ("damped", |config| config.damping = Damping::all(0.05)),
         ("reversibly heated", |config| config.physics.thermoelastic_heating = true),
         ("worn", |config| config.damage.wear = Wear::TGamma),
         ("flattened", |config| config.wheel.profile = "flat(length=0.02)".to_owned()),

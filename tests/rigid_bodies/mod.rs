@@ -59,7 +59,6 @@ impl RigidBodies {
             inertial: &self.none[1],
             momentum: &self.none[2],
             deformation_inertia: &self.none[3],
-            retarded: [None; 2],
         }
     }
 

@@ -202,8 +202,6 @@ impl<'a> Slave<'a> {
     pub fn coarsen(&self) {
         assert_eq!(self.set_integer("mesh.elements_per_half_width", 4), fmi2OK);
         assert_eq!(self.set_integer("mesh.grid_elements_per_half_width", 4), fmi2OK);
-        assert_eq!(self.set_integer("solver.modes_wheel", 6), fmi2OK);
-        assert_eq!(self.set_integer("solver.modes_rail", 4), fmi2OK);
     }
 
     /// Ready for the first step at time 0.

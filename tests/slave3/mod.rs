@@ -152,12 +152,7 @@ impl Wheel {
     /// Instantiated with such a mesh and basis, and with arguments.
     pub fn coarse_with(arguments: &Arguments) -> Wheel {
         let wheel = Wheel::try_new(arguments).unwrap_or_else(|heard| panic!("{heard:?}"));
-        for (name, value) in [
-            ("mesh.elements_per_half_width", 4),
-            ("mesh.grid_elements_per_half_width", 4),
-            ("solver.modes_wheel", 6),
-            ("solver.modes_rail", 4),
-        ] {
+        for (name, value) in [("mesh.elements_per_half_width", 4), ("mesh.grid_elements_per_half_width", 4)] {
             assert_eq!(wheel.set_int32(name, value), Status::Ok);
         }
         wheel

@@ -29,7 +29,6 @@ fn pipe(path: &Path) -> &Path {
 
 fn small() -> Config {
     let mut config = common::preset("railway", 4);
-    (config.solver.modes_wheel, config.solver.modes_rail) = (6, 4);
     config.thermal.enabled = false;
     config
 }
@@ -48,7 +47,7 @@ fn prepare(instance: &mut Instance, settings: &[(&str, &Path)]) -> Result<(), Ca
         let row = variables().iter().find(|variable| variable.name == name).unwrap();
         instance.set(&[row.reference], vec![value])
     };
-    let counts = [("mesh.elements_per_half_width", 4), ("solver.modes_wheel", 6), ("solver.modes_rail", 4)];
+    let counts = [("mesh.elements_per_half_width", 4)];
     counts.iter().try_for_each(|(name, count)| set(instance, name, Value::Integer(*count)))?;
     set(instance, "thermal.enabled", Value::Boolean(false))?;
     for (name, path) in settings {

@@ -4,19 +4,11 @@ use crate::common::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use wheelrail::analytic::hub_torsion;
-use wheelrail::config::{Config, Response};
+use wheelrail::config::{Config, Damping, Response};
 use wheelrail::material::Isotropic;
 use wheelrail::mechanics::{Basis, BodyDamping, wheel_mass};
 use wheelrail::rolling::State;
-use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation, Translation};
-
-/// Without heat, and with no damping but Rayleigh's.
-fn rayleigh(mut config: Config, stiffness: f64) -> Config {
-    config.thermal.enabled = false;
-    config.damping.modal = false;
-    config.damping.rayleigh_stiffness = stiffness;
-    config
-}
+use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation};
 
 /// Frictionless wheel under the nominal load.
 fn frictionless(model: &Model, velocity: f64) -> Inputs {
@@ -58,18 +50,15 @@ fn ringing_torsion(model: &Arc<Model>, velocity: f64, dt: f64, duration: f64) ->
 fn torsion_on_the_hub_decays_with_its_ratio_standing_and_rolling() {
     let mut modal = preset("paper_d", 10);
     modal.thermal.enabled = false;
-    modal.damping.modal = true;
+    modal.damping = Damping::default();
     let shear = Isotropic::from(&modal.material).shear_wave_speed();
     let omega = hub_torsion(modal.wheel.radius, modal.wheel.hub_radius, shear).frequency;
-    let viscous = rayleigh(modal.clone(), 2e-2 / omega);
-    for (name, config) in [("modal", modal), ("Rayleigh", viscous)] {
-        let model = model(config);
-        for velocity in [0.0, 20.0] {
-            let found = [2e-5, 1e-5].map(|dt| ratio(&ringing_torsion(&model, velocity, dt, 10.0 * TAU / omega)));
-            figure("damping.torsion", &[found[1] / 1e-2 - 1.0]);
-            println!("{name}, {velocity} m/s: damping ratios {found:?}");
-            assert!((found[1] / 1e-2 - 1.0).abs() < 0.01 && (found[0] / found[1] - 1.0).abs() < 0.01);
-        }
+    let model = model(modal);
+    for velocity in [0.0, 20.0] {
+        let found = [2e-5, 1e-5].map(|dt| ratio(&ringing_torsion(&model, velocity, dt, 10.0 * TAU / omega)));
+        figure("damping.torsion", &[found[1] / 1e-2 - 1.0]);
+        println!("{velocity} m/s: damping ratios {found:?}");
+        assert!((found[1] / 1e-2 - 1.0).abs() < 0.01 && (found[0] / found[1] - 1.0).abs() < 0.01);
     }
 }
 
@@ -102,6 +91,13 @@ fn heavy_hub(elements: usize) -> Config {
     config
 }
 
+/// That wheel with no damping at all.
+fn undamped(elements: usize) -> Config {
+    let mut config = heavy_hub(elements);
+    config.damping = Damping::NONE;
+    config
+}
+
 /// Mass of wheel and hub \[kg].
 fn bouncing_mass(config: &Config) -> f64 {
     config.wheel.hub_mass + wheel_mass(config) * config.model.contact_width
@@ -111,7 +107,7 @@ fn bouncing_mass(config: &Config) -> f64 {
 #[test]
 fn bounce_on_the_contact_decays_with_the_damper_between_hub_and_vehicle() {
     let guess = 370.0;
-    let mut config = rayleigh(heavy_hub(10), 0.0);
+    let mut config = undamped(10);
     let mass = bouncing_mass(&config);
     config.vehicle.damping = 2.0 * 0.01 * guess * mass;
     let damping = config.vehicle.damping;
@@ -126,35 +122,15 @@ fn bounce_on_the_contact_decays_with_the_damper_between_hub_and_vehicle() {
     }
 }
 
-/// All flexibility on which the wheel bounces, residual and correction of the kernel included, has the loss factor
-/// `α1 ω`, so that the ratio is `α1 ω/2`, whatever the shape of contact and bodies.
-#[test]
-fn bounce_on_the_contact_decays_with_rayleigh_damping_standing_and_rolling() {
-    let guess = 370.0;
-    let model = model(rayleigh(heavy_hub(10), 2.0 * 0.01 / guess));
-    for velocity in [0.0, 20.0] {
-        let found = [200.0, 400.0].map(|steps| {
-            let signal = bounce(&model, velocity, guess, 10, steps);
-            let omega = frequency(&signal, TAU / guess / steps);
-            ratio(&signal) / (0.01 * omega / guess)
-        });
-        figure("damping.rayleigh", &[found[1] - 1.0]);
-        println!("{velocity} m/s: found over closed form {found:?}");
-        assert!((found[1] - 1.0).abs() < 0.01 && (found[0] - found[1]).abs() < 0.01);
-    }
-}
-
-/// Torsion, radial, one and more diameters of the wheel; all modes of the rail; Rayleigh's factors for both.
+/// Torsion, radial, one and more diameters of the wheel; all modes of the rail.
 #[test]
 fn modes_of_both_bodies_have_the_ratios_that_their_parameters_give() {
     let mut config = Config::default();
     let damping = &mut config.damping;
     (damping.wheel_torsion, damping.wheel_radial) = (0.1, 0.2);
     (damping.wheel_one_diameter, damping.wheel_more_diameters, damping.rail) = (0.3, 0.4, 0.5);
-    (damping.rayleigh_mass, damping.rayleigh_stiffness) = (6.0, 7e-5);
-    let with = |ratios| BodyDamping { ratios, mass: 6.0, stiffness: 7e-5 };
-    assert_eq!(BodyDamping::wheel(&config), with([0.1, 0.2, 0.3, 0.4]));
-    assert_eq!(BodyDamping::rail(&config), with([0.5; 4]));
+    assert_eq!(BodyDamping::wheel(&config), BodyDamping { ratios: [0.1, 0.2, 0.3, 0.4] });
+    assert_eq!(BodyDamping::rail(&config), BodyDamping { ratios: [0.5; 4] });
 }
 
 /// Each mode gives its share `s_i` of the flexibility under the bounce the loss factor `2 ζ_i ω/ω_i`:
@@ -230,88 +206,34 @@ fn impact(model: &Arc<Model>, dt: f64, turned: f64) -> [f64; 2] {
     [-falling, rising]
 }
 
-/// Loads [N] up to the nominal one and the approaches of the bodies under them [m].
-fn compression(model: &Arc<Model>) -> Vec<[f64; 2]> {
-    let mut inputs = frictionless(model, 0.0);
-    let nominal = inputs.drive.load;
-    let mut under = |share: u32| {
-        inputs.drive.load = 0.02 * f64::from(share) * nominal;
-        let still = Simulation::new(model.clone(), &inputs).unwrap();
-        [inputs.drive.load, still.outputs().contact_approach]
-    };
-    (1..=50).map(&mut under).collect()
-}
-
-/// Restitution of a mass on the flexible contact with the loss factor `α1 ω`: in compression and in release the
-/// dashpots take `α1 ∫ v dF`, with the speed of the lossless impact, `½ m v² = ½ m v0² − ∫ F dδ`; their work is that
-/// share of the energy which makes `e = exp(−W/mv0²)` (exact for a linear spring but for `O(ζ²)`).
-fn restitution(compression: &[[f64; 2]], retardation: f64, speed: f64, mass: f64) -> f64 {
-    let (mut energy, mut work, mut before) = (0.5 * mass * speed * speed, 0.0, [0.0, 0.0]);
-    for &[load, depth] in compression {
-        let stored = 0.5 * (load + before[0]) * (depth - before[1]);
-        let start = (2.0 * energy / mass).sqrt();
-        if stored >= energy {
-            // The last piece ends at rest: F ~ linear in depth, v as a quarter of an ellipse.
-            work += retardation * start * (load - before[0]) * energy / stored * 2.0 / 3.0;
-            return (-2.0 * work / (mass * speed * speed)).exp();
-        }
-        energy -= stored;
-        work += retardation * 0.5 * (start + (2.0 * energy / mass).sqrt()) * (load - before[0]);
-        before = [load, depth];
-    }
-    panic!("the wheel falls faster than its contact bears under the nominal load");
-}
-
-/// The closed form is of first order in the damping ratio. The steps are fixed: their control would refine the coarse
-/// ones.
+/// A wheel without damping comes back as fast as it fell but for what its vibrations keep. The steps are fixed: their control
+/// would refine the coarse ones.
 ///
 /// The contact begins and ends anywhere within a step, and the error of the step, at most some `(ω Δt)²` of the speed,
-/// depends on that place. So the loss of a single impact need not come closer with each half of the step. Its mean over
-/// wheels that are turned back to several speeds, and so strike at other places of the step, does.
+/// depends on that place: means are those over wheels that are turned back to several speeds.
 #[test]
-fn rebound_of_a_dropped_wheel_converges_with_the_step_to_the_damped_closed_form() {
-    for damping_ratio in [0.01, 0.02] {
-        let retardation = 2.0 * damping_ratio / 455.0;
-        let mut config = rayleigh(heavy_hub(10), retardation);
-        config.tuning.tolerance = 0.0;
-        let model = model(config);
-        let (compression, mass) = (compression(&model), bouncing_mass(model.config()));
-        let [coarse, middle, fine] = [1e-4, 5e-5, 2.5e-5].map(|dt| {
-            let losses = [0.685, 0.69, 0.695, 0.7, 0.705, 0.71].map(|turned| {
-                let [before, after] = impact(&model, dt, turned);
-                (1.0 - after / before) / (1.0 - restitution(&compression, retardation, before, mass)) - 1.0
-            });
-            let mean = losses.iter().sum::<f64>() / losses.len() as f64;
-            println!("ratio {damping_ratio}, step {dt}: losses {losses:+.4?}, mean {mean:+.5}");
-            mean
+fn rebound_of_a_dropped_wheel_without_damping_converges_with_the_step_to_one_without_loss() {
+    let mut config = undamped(10);
+    config.tuning.tolerance = 0.0;
+    let model = model(config);
+    let [coarse, middle, fine] = [1e-4, 5e-5, 2.5e-5].map(|dt| {
+        let losses = [0.685, 0.69, 0.695, 0.7, 0.705, 0.71].map(|turned| {
+            let [before, after] = impact(&model, dt, turned);
+            1.0 - after / before
         });
-        figure(&format!("rebound.{}", (100.0 * damping_ratio).round()), &[coarse, middle, fine]);
-        assert!(fine.abs() < 0.6 * damping_ratio && (fine - middle).abs() < 0.5 * (middle - coarse).abs());
-    }
+        println!("step {dt}: losses {losses:+.6?}");
+        losses.iter().sum::<f64>() / losses.len() as f64
+    });
+    figure("rebound", &[coarse, middle, fine]);
+    assert!(fine.abs() < 1e-3 && fine.abs() < coarse.abs(), "{coarse} {middle} {fine}");
 }
 
-/// Steps far below the relaxation time, where the retarded flexibility hardly answers.
-#[test]
-fn contact_stays_solvable_in_steps_far_below_the_relaxation_time() {
-    let model = model(rayleigh(preset("railway", 10), 1e-4));
-    let mut inputs = prescribed(&model, 20.0, 0.0);
-    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
-    for k in 1..=200 {
-        inputs.drive.omega = omega(&model, 20.0, 1e-3 * f64::from(k) / 200.0);
-        simulation.advance(&inputs, 1e-6).unwrap();
-    }
-    let outputs = simulation.outputs();
-    println!("force {:.1} N, residual {:.1e}", outputs.contact_force_x, outputs.energy_residual);
-    assert!((outputs.contact_force_y / inputs.drive.load - 1.0).abs() < 0.1 && outputs.energy_residual.abs() < 1e-2);
-}
-
-/// Reduced and full response with ratios and Rayleigh damping: 1 ms ramp of the creepage.
+/// Reduced and full response with damped modes: 1 ms ramp of the creepage.
 #[test]
 fn damped_reduced_and_full_response_agree_within_a_thousandth_of_the_load() {
     let mut config = preset("paper_d", 6);
     config.thermal.enabled = false;
-    config.damping.modal = true;
-    (config.damping.rayleigh_mass, config.damping.rayleigh_stiffness) = (10.0, 1e-5);
+    config.damping = Damping::default();
     let reduced = model(config.clone());
     config.solver.response = Response::Full;
     let full = model(config);
@@ -362,43 +284,15 @@ fn braking(change: &dyn Fn(&mut Config)) -> [f64; 2] {
 fn energy_of_a_braking_stop_stays_balanced_with_damping() {
     // The damper of the track takes what is left at the stop, 14 % of the little that a gentle brake loses to friction.
     let none = braking(&|c| {
-        c.damping.modal = false;
+        c.damping = Damping::NONE;
         (c.rail.restraint_stiffness, c.rail.restraint_damping) = (0.0, 0.0);
     });
     let modal = braking(&|_| {});
-    let strong = braking(&|c| (c.damping.rayleigh_mass, c.damping.rayleigh_stiffness) = (20.0, 1e-4));
-    println!("residual, damping over friction: none {none:?}, default {modal:?}, Rayleigh {strong:?}");
+    let strong = braking(&|c| c.damping = Damping::all(0.1));
+    println!("residual, damping over friction: none {none:?}, default {modal:?}, strong {strong:?}");
     // At a change of solver the power of friction, which is an output, is that of its work within 1e-7 of the whole.
     assert!(none[1].abs() < 1e-6);
     for [residual, _] in [none, modal, strong] {
         assert!(residual.abs() < 5e-3);
     }
-}
-
-#[test]
-fn saved_states_with_retarded_forces_continue_bit_by_bit() {
-    let mut config = preset("railway", 6);
-    config.thermal.enabled = false;
-    (config.damping.rayleigh_mass, config.damping.rayleigh_stiffness) = (5.0, 2e-5);
-    let model = model(config);
-    let mut inputs = Inputs::rolling(model.config());
-    inputs.translation = Translation::Force;
-    let mut simulation = Simulation::new(model.clone(), &inputs).unwrap();
-    let mut run = |simulation: &mut Simulation, from: i32| {
-        for k in from..from + 20 {
-            inputs.drive.moment = -4e3 * (0.3 * f64::from(k)).sin();
-            simulation.advance(&inputs, 3e-4).unwrap();
-        }
-        simulation.state().clone()
-    };
-    run(&mut simulation, 0);
-    let saved = simulation.checkpoint().clone();
-    assert!(saved.state.wheel.retarded.now.amax() > 0.0);
-    let bytes = postcard::to_stdvec(&saved).unwrap();
-    let first = run(&mut simulation, 20);
-    simulation.recall(saved).unwrap();
-    assert_eq!(run(&mut simulation, 20), first);
-    let read = postcard::from_bytes(&bytes).unwrap();
-    let mut resumed = Simulation::resume(model, simulation.tuning().clone(), read).unwrap();
-    assert_eq!(run(&mut resumed, 20), first);
 }

@@ -109,7 +109,7 @@ fn a_long_slide_does_not_depend_on_the_step() {
     let run = |h: f64| {
         let mut config = preset("railway", 10);
         (config.tuning.max_step, config.tuning.tolerance) = (500.0, 0.0);
-        config.physics.thermal_expansion = false;
+        config.material.expansion = 0.0;
         let model = model(config);
         let cold = prescribed(&model, SPEED, 0.0);
         let mut simulation = Simulation::new(model.clone(), &cold).unwrap();

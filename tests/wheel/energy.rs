@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use std::sync::Arc;
-use wheelrail::config::{Config, StartTemperature};
+use wheelrail::config::{Config, Damping, StartTemperature};
 use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation, Translation};
 
 /// Braking from 10 m/s: moment ramp, hold, at walking speed the brake holds the wheel. Outputs at the end.
@@ -131,7 +131,7 @@ fn an_observer_of_a_moment_brake_finds_the_energy_balance_of_the_model_at_every_
 #[test]
 fn the_balance_holds_while_the_torsion_rings() {
     let mut config = preset("railway", 10);
-    (config.thermal.enabled, config.damping.modal) = (false, false);
+    (config.thermal.enabled, config.damping) = (false, Damping::NONE);
     let model = model(config);
     let mut inputs = Inputs::rolling(model.config());
     (inputs.rotation, inputs.translation) = (Rotation::Velocity, Translation::Velocity);

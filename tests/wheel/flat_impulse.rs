@@ -9,7 +9,7 @@ use crate::common::{self, model, prescribed, preset};
 use nalgebra::{Cholesky, DMatrix, DVector};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
-use wheelrail::config::Config;
+use wheelrail::config::{Config, Damping};
 use wheelrail::material::Isotropic;
 use wheelrail::simulation::{Inputs, Model, Simulation};
 
@@ -22,7 +22,7 @@ fn heavy(hub_mass: f64, elements: usize) -> Config {
     let mut config = preset("railway", elements);
     config.thermal.enabled = false;
     (config.tuning.tolerance, config.physics.yielding) = (0.0, false);
-    (config.wheel.hub_mass, config.vehicle.damping, config.damping.modal) = (hub_mass, 0.0, false);
+    (config.wheel.hub_mass, config.vehicle.damping, config.damping) = (hub_mass, 0.0, Damping::NONE);
     config
 }
 

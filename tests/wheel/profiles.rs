@@ -3,7 +3,7 @@
 
 use crate::common::{self, KMH, model, prescribed, preset, store};
 use std::sync::Arc;
-use wheelrail::config::Config;
+use wheelrail::config::{Config, Damping};
 use wheelrail::mechanics::nominal_half_width;
 use wheelrail::simulation::validity::Limit;
 use wheelrail::simulation::{Drive, Inputs, Model, Outputs, Simulation, StepError, advice};
@@ -238,7 +238,7 @@ fn states_on_profiles_return_bit_for_bit_and_have_derivatives() {
 #[test]
 fn a_dipped_joint_makes_the_force_p1_of_jenkins_on_a_rigid_base() {
     let mut config = cold(preset("railway", 10));
-    (config.wheel.hub_mass, config.vehicle.damping, config.damping.modal) = (3000.0, 0.0, false);
+    (config.wheel.hub_mass, config.vehicle.damping, config.damping) = (3000.0, 0.0, Damping::NONE);
     let smooth = model(config.clone());
     let approach = |share: f64| {
         let mut inputs = without_friction(&smooth, 15.0);

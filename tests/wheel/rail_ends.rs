@@ -7,7 +7,7 @@ use crate::common::*;
 use nalgebra::{Complex, Matrix2, Vector2};
 use std::f64::consts::PI;
 use waves::{Push, deviation, plate, steel, system};
-use wheelrail::config::RailEnds;
+use wheelrail::config::{Damping, RailEnds};
 use wheelrail::fem::DofMap;
 use wheelrail::linalg::CsrMatrix;
 use wheelrail::material::Isotropic;
@@ -108,7 +108,7 @@ fn bounce(ends: RailEnds, speed: f64, h: f64) -> (Vec<f64>, [f64; 2]) {
     let mut config = preset("paper_d", 4);
     config.thermal.enabled = false;
     config.rail.ends = ends;
-    (config.rail.length, config.rail.height, config.damping.modal) = (3.0, 2.0, true);
+    (config.rail.length, config.rail.height, config.damping) = (3.0, 2.0, Damping::default());
     let model = model(config);
     let mut inputs = prescribed(&model, speed, 0.0);
     inputs.drive.friction = 0.0;

@@ -2,7 +2,7 @@
 
 use crate::common::{self, model, preset, shipped};
 use std::sync::Arc;
-use wheelrail::config::{Config, StartTemperature};
+use wheelrail::config::{Config, Damping, StartTemperature};
 use wheelrail::mechanics::{wheel_inertia, wheel_mass};
 use wheelrail::simulation::{
     Drive, Inputs, Model, Outputs, Rotation, Simulation, StepError, Translation, Vertical, advice,
@@ -73,7 +73,7 @@ fn a_plain_start_is_free_of_tangential_force_for_one_second_at_every_speed_and_s
 fn without_damping_a_plain_start_is_free_of_any_force_and_with_it_of_all_but_rolling_resistance() {
     for velocity in [5.0, 80.0, -30.0] {
         let mut config = railway(velocity, false);
-        config.damping.modal = false;
+        config.damping = Damping::NONE;
         let undamped = common::model(config);
         let [force, change, _] = force_and_change(&undamped, &driven(&undamped, 0.0, 0.0), 1e-3, 0.3);
         println!("V {velocity}: {force:.1e} N, change {change:.1e} N");

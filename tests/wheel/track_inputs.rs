@@ -156,7 +156,7 @@ fn a_warm_wheel_on_a_warm_rail_is_a_cold_one_at_a_warm_reference() {
     let warm = |reference: f64, excess: f64| {
         wheel(|config| {
             config.thermal.enabled = true;
-            config.physics.thermal_expansion = false;
+            config.material.expansion = 0.0;
             config.tuning.softening = 0.0;
             config.thermal.hub = Hub::Insulated;
             (config.thermal.reference, config.thermal.wheel_excess) = (reference, excess);
@@ -221,7 +221,7 @@ fn wheelset(config: &mut Config) {
     config.rail.restraint_stiffness *= 2.0;
     config.rail.restraint_damping *= 2.0;
     let thermal = &mut config.thermal;
-    for width in [&mut thermal.rim_width, &mut thermal.web_width, &mut thermal.boss_width, &mut thermal.head_width] {
+    for width in [&mut thermal.rim_width, &mut thermal.web_width, &mut thermal.head_width] {
         *width *= 2.0;
     }
     thermal.block_width *= 2.0;

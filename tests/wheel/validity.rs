@@ -1,7 +1,7 @@
 //! Limits of the model of which a run is warned: each in a case beyond it, none in ordinary rolling.
 
 use crate::common::*;
-use wheelrail::config::{Config, Tuning};
+use wheelrail::config::{Config, Damping, Tuning};
 use wheelrail::simulation::validity::Limit;
 use wheelrail::simulation::{Inputs, Rotation, Simulation, Translation};
 
@@ -173,9 +173,9 @@ fn falling_friction_that_the_damping_of_the_wheel_outweighs_says_nothing_of_stic
     ] {
         let mut config = preset(name, 8);
         config.thermal.enabled = false;
-        let run = |modal: bool| {
+        let run = |damped: bool| {
             let mut config = config.clone();
-            config.damping.modal = modal;
+            config.damping = if damped { config.damping } else { Damping::NONE };
             let model = model(config);
             let mut inputs = prescribed(&model, 10.0, 0.0);
             (inputs.rotation, inputs.drive.friction) = (Rotation::Velocity, friction);

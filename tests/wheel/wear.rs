@@ -81,12 +81,7 @@ fn a_worn_state_returns_bit_for_bit_and_no_wear_changes_nothing() {
     let mut other = Simulation::resume(worn.clone(), worn.config().tuning.clone(), saved).unwrap();
     assert_eq!(run(&mut other, &inputs, 5e-4, 20), first);
     // Without wear, and with a law that takes nothing.
-    let others = [
-        |c: &mut Config| c.damage.wear = Wear::Off,
-        |c: &mut Config| {
-            (c.damage.wear_mild, c.damage.wear_severe, c.damage.wear_catastrophic) = (0.0, 0.0, 0.0);
-        },
-    ];
+    let others = [|c: &mut Config| c.damage.wear = Wear::Off, |c: &mut Config| c.damage.wear_factor = 0.0];
     let [off, none] = others.map(|change| {
         let mut config = wearing(6);
         change(&mut config);
@@ -102,10 +97,10 @@ fn a_worn_state_returns_bit_for_bit_and_no_wear_changes_nothing() {
 /// A wheel after its slide, and what it was given.
 type Slide = (Simulation, Inputs);
 
-/// A wheel that slides 2 m with severe wear, eight times as fast as that of the tests, so that it grinds a flat.
+/// A wheel that slides 2 m with wear eight times as fast as that of the tests, so that it grinds a flat.
 fn slide(elements: usize, step: f64) -> Slide {
     let mut config = wearing(elements);
-    config.damage.wear_severe *= 8.0;
+    config.damage.wear_factor = 8.0;
     config.tuning.max_step = step;
     config.physics.yielding = false;
     let model = model(config);
@@ -370,9 +365,5 @@ fn wear_that_makes_no_sense_is_refused_by_name() {
         let message = config.validate().unwrap_err().to_string();
         assert!(words.iter().all(|word| message.contains(word)), "{message}");
     };
-    refused(
-        |c| c.damage.wear_catastrophic_from = 1e6,
-        &["damage.wear_catastrophic_from = ", "damage.wear_severe_from"],
-    );
-    refused(|c| c.damage.wear_mild = -1.0, &["damage.wear_mild = -1"]);
+    refused(|c| c.damage.wear_factor = -1.0, &["damage.wear_factor = -1"]);
 }

@@ -52,13 +52,6 @@ impl LineKernel {
         Self { tangential: short(self.tangential), normal: short(self.normal), ..self }
     }
 
-    /// That of which a `share` answers at once, and the constant.
-    pub fn at_once(self, share: f64) -> Self {
-        let scaled = |Logarithm { factor, reach }| Logarithm { factor: share * factor, reach: reach / share };
-        let Self { tangential, normal, lateral, coupling } = self;
-        Self { tangential: scaled(tangential), normal: scaled(normal), lateral, coupling: share * coupling }
-    }
-
     /// Elastic energy of the constants of one body under the sums of tangential and normal forces [J/m].
     pub fn energy_of_reach(&self, sums: [f64; 2]) -> f64 {
         [self.tangential, self.normal]

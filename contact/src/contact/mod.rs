@@ -30,8 +30,7 @@ pub use kernel::{LineKernel, Logarithm};
 pub use layout::{LineLayout, NodeSize, PatchLayout, PatchMaterial};
 pub use limits::SteelLimits;
 pub use problem::{
-    AxisDrive, Begin, BySpeed, ContactProblem, Drift, Influence, LineProblem, RetardedSurface, RigidMotion,
-    SurfaceResponse,
+    AxisDrive, Begin, BySpeed, ContactProblem, Drift, Influence, LineProblem, RigidMotion, SurfaceResponse,
 };
 pub use state::ContactState;
 pub use traction::{SolvedFriction, Traction, Yielding};

@@ -41,8 +41,6 @@ pub struct SurfaceResponse<'a> {
     pub momentum: &'a DMatrix<f64>,
     /// Rate of deformation momentum per unit rigid acceleration, axis by axis.
     pub deformation_inertia: &'a DMatrix<f64>,
-    /// Retarded layers of wheel and rail; `None`: all flexibility answers at once.
-    pub retarded: [Option<RetardedSurface<'a>>; 2],
 }
 
 impl SurfaceResponse<'_> {
@@ -50,20 +48,6 @@ impl SurfaceResponse<'_> {
     pub fn inertial_at(&self, port: usize) -> PerAxis<f64> {
         PerAxis::from_fn(|axis| self.inertial[(port, axis.number())])
     }
-}
-
-/// Retarded layer at the surface of a body: its displacement belongs to the elastic part `share · force + known` of the
-/// forces, ahead of which the forces themselves run. The flexibility of lines is retarded likewise.
-#[derive(Clone, Copy)]
-pub struct RetardedSurface<'a> {
-    /// Displacement per unit elastic force [m/(N/m)].
-    pub flexibility: &'a DMatrix<f64>,
-    /// Part of a new force that counts at once \[1].
-    pub share: f64,
-    /// Elastic forces on this body without new forces [N/m].
-    pub known: &'a DVector<f64>,
-    /// Relaxation time \[s].
-    pub time: f64,
 }
 
 /// Drive of a rigid motion of the wheel.
@@ -196,11 +180,6 @@ pub struct LineProblem<'a> {
 }
 
 impl LineProblem<'_> {
-    /// Flexibility that the line has for itself, as far as it answers at once.
-    pub fn kernel_at_once(&self) -> LineKernel {
-        self.bodies.retarded[0].map_or(self.kernel, |layer| self.kernel.at_once(layer.share))
-    }
-
     /// True if its nodes may be closer than those of the grid.
     pub fn is_on_small_nodes(&self) -> bool {
         self.size.is_some_and(|size| size.under_load < 1.0)

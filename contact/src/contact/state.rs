@@ -13,8 +13,6 @@ pub struct ContactState {
     pub history: LineHistory,
     /// Elastic energy of the flexibility that lines have for themselves [J/m].
     pub energy: f64,
-    /// Power that this flexibility takes where it is retarded [W/m].
-    pub damping: f64,
     /// States of the nodes.
     pub grid: GridState,
 }

@@ -62,14 +62,15 @@ def corrugation_force(
     stiffness: float,
     mass: float,
     retardation: float = 0.0,
+    damper: float = 0.0,
 ) -> np.ndarray:
     """Amplitude of the force [N] of a mass that rolls on its contact spring over a sinusoid.
 
-    `speed` [m/s], `amplitude` [m], `wavelength` [m], `half_width` [m], `stiffness` K [N/m], `mass` m [kg], `retardation` [s]:
-    `A J0 |K* m w2/(K* - m w2)|` with `K* = K (1 + i w retardation)`: first order in the amplitude, rail on a fixed base.
+    `speed` [m/s], `amplitude` [m], `wavelength` [m], `half_width` [m], `stiffness` K [N/m], `mass` m [kg], `retardation` [s] of the
+    spring, `damper` c [N s/m] that holds the mass: `A J0 |K* M/(K* - M)|` with `K* = K (1 + i w retardation)` and `M = m w2 - i w c`: first order in the amplitude, rail on a fixed base.
     """
     omega = 2.0 * np.pi * np.asarray(speed, float) / wavelength
-    spring, inertia = stiffness * (1.0 + 1j * omega * retardation), mass * omega**2
+    spring, inertia = stiffness * (1.0 + 1j * omega * retardation), mass * omega**2 - 1j * omega * damper
     return amplitude * np.abs(contact_filter(half_width, wavelength) * spring * inertia / (spring - inertia))
 
 

@@ -269,17 +269,11 @@ fn of_idle_rows(settings: &Settings, config: &Config) -> Option<String> {
     Some(format!("{name} has no effect: contact.shape is another; set contact.shape = rows"))
 }
 
-/// Warning of what moves or yields sideways under a contact that has no lateral direction.
+/// Warning of what moves sideways under a contact that has no lateral direction.
 fn of_idle_sideways(settings: &Settings, config: &Config) -> Option<String> {
-    let (wheel, rail) = (&config.wheel, &config.rail);
-    let values = [
-        ("wheel.lateral_mass", wheel.lateral_mass),
-        ("wheel.lateral_stiffness", wheel.lateral_stiffness),
-        ("rail.lateral_stiffness", rail.lateral_stiffness),
-    ];
-    let (name, _) = values.into_iter().find(|(name, value)| *value > 0.0 && is_set(settings, name))?;
-    (!config.contact.lateral)
-        .then(|| format!("{name} has no effect without lateral forces; set contact.lateral = true"))
+    let set = config.wheel.lateral_mass > 0.0 && is_set(settings, "wheel.lateral_mass");
+    (set && !config.contact.lateral)
+        .then(|| "wheel.lateral_mass has no effect without lateral forces; set contact.lateral = true".to_owned())
 }
 
 /// Warning of rows whose load is not said, under a nominal load for which they may be meant.

@@ -13,7 +13,7 @@ use super::solve::response::SurfaceInfluence;
 use super::solve::transport::Transport;
 use super::solve::tridiagonal::TridiagonalFactor;
 use super::step::loads::SurfaceLoads;
-use crate::config::{ConductanceLaw, Config, Hub};
+use crate::config::{Config, Hub};
 use crate::fem::grading::graded;
 use crate::heat::{Exchange, HeatConfig, HeatLine, HeatModel, HeatScratch, HeatState, Interval, Observation};
 use crate::linalg::Update;
@@ -145,7 +145,7 @@ fn both(a: f64, v: f64, k_c: f64) -> Heat {
         (CONDUCTIVITY, 8000.0, HEAT_CAPACITY / 8000.0);
     let thermal = &mut config.thermal;
     (thermal.max_speed, thermal.smallest_load_ratio, thermal.convection) = (v, 1.0, 0.0);
-    (thermal.hub, thermal.conductance_law, thermal.conductance) = (Hub::Fixed, ConductanceLaw::Constant, k_c);
+    (thermal.hub, thermal.conductance) = (Hub::Fixed, k_c);
     let Config { wheel, rail, material, thermal, .. } = config;
     let (half_width, zone) = (a, 1.5 * a);
     let contact = HeatConfig {
@@ -238,7 +238,8 @@ fn kept_factors_of_a_full_contact_and_its_two_ends_are_the_factors_of_the_contac
         line.set(&stage, &heat.layout, &loads.conductance).unwrap();
         let jump: Vec<f64> =
             (0..conducting(&loads.conductance).len() + 1).map(|i| 100.0 + (7.0 * i as f64).sin()).collect();
-        let [kept, direct] = [Some(k_c), None].map(|even| line.left_of(&stage, &heat.layout, even, &jump));
+        let [kept, direct] =
+            [(k_c, true), (2.0 * k_c, false)].map(|even| line.left_of(&stage, &heat.layout, even, &jump));
         let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let apart: Vec<f64> = kept.iter().zip(&direct).map(|(a, b)| a - b).collect();
         println!("k_c {k_c:e}: {:.1e} of {:.1e} K", largest(&apart), largest(&direct));

@@ -268,7 +268,6 @@ fn complete(model: &RollingModel, goal: &Goal, trial: &Trial, mut state: State) 
         pose: Pose::of(&goal.drive),
         ..state.motion
     };
-    state.side = model.wheel.sideways.at_rest(state.resultant().lateral);
     (state.hub.gravity, state.elevation) = (model.wheel.gravity(&goal.drive), goal.drive.elevation);
     state.hub.brake = Brake::stationary(goal.given.rotation, rotation, state.hub.force.rotation);
     let moment = &mut state.hub.force.rotation;

@@ -24,7 +24,6 @@ impl ThermalContact<'_> {
         let contact = self.traction;
         exchange.clear();
         exchange.patches.extend(&contact.conducting);
-        copy(&contact.pressure, &mut exchange.pressure);
         if film.is_empty() {
             copy(&contact.friction.dissipation, &mut exchange.friction_power);
         } else {

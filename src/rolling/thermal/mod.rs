@@ -18,7 +18,7 @@ use super::error::StepError;
 use super::line::Line;
 use super::profile::{PROFILE_POINTS, profile_points};
 use super::state::Motion;
-use super::thermal_state::{ThermalDeformation, ThermalState, Weakening};
+use super::thermal_state::{ThermalState, Weakening};
 use crate::config::Config;
 use crate::contact::{ContactState, Heating, Traction};
 use crate::damage::ConductionScratch;
@@ -64,8 +64,7 @@ pub struct ThermalModel {
     sources: HeatSources,
     /// Coefficient of thermal expansion [1/K].
     thermal_expansion: f64,
-    /// Unless `physics.thermal_expansion` is off.
-    expansion: Option<Expansion>,
+    expansion: Expansion,
     /// If `physics.thermoelastic_heating` is on.
     thermoelastic: Option<Thermoelastic>,
     /// Distance of the contact nodes [m].
@@ -132,7 +131,7 @@ impl ThermalModel {
             wheel_excess: config.thermal.wheel_excess,
             sources: HeatSources::new(config),
             thermal_expansion: config.material.expansion,
-            expansion: config.physics.thermal_expansion.then(|| Expansion::new(config)),
+            expansion: Expansion::new(config),
             thermoelastic: config.physics.thermoelastic_heating.then(|| Thermoelastic::new(config)),
             spacing: margin,
             weakening: WeakSteel::new(config),
@@ -314,16 +313,11 @@ impl ThermalModel {
         thermal.heating.now = if friction > 0.0 { mean / friction } else { 0.0 };
         let hottest = seen.temperatures.wheel_max.max(seen.temperatures.rail_max);
         let warm = piecewise::smooth_step((hottest - SMOOTHED[0]) / (SMOOTHED[1] - SMOOTHED[0]));
-        match &self.expansion {
-            Some(expansion) => {
-                let layers = seen.layer.iter_mut().zip(seen.layer_depth).zip(smoothing);
-                for ((layer, depth), smoothing) in layers.filter(|_| warm > 0.0) {
-                    smoothing.apply(zone, layer, depth, (self.spacing, warm));
-                }
-                expansion.deform(zone, seen, &mut thermal.deformation);
-            }
-            None => thermal.deformation = ThermalDeformation::NONE,
+        let layers = seen.layer.iter_mut().zip(seen.layer_depth).zip(smoothing);
+        for ((layer, depth), smoothing) in layers.filter(|_| warm > 0.0) {
+            smoothing.apply(zone, layer, depth, (self.spacing, warm));
         }
+        self.expansion.deform(zone, seen, &mut thermal.deformation);
         self.weakening.find(&*self.heat, contact.traction, [dt, self.warming.unit(dt)], thermal, seen)?;
         Ok(())
     }

@@ -203,11 +203,12 @@ fn track(value: f64, bound: f64) -> String {
 fn energy(simulation: &Simulation, value: f64) -> String {
     let (missing, force) = simulation.missing_energy();
     let load = simulation.model().config().model.nominal_load;
-    let stays = if simulation.model().config().damping.modal {
-        ""
-    } else {
-        ": the error of the force becomes smaller, but without damping.modal waves of high frequency lose their energy in \
-         steps of any length"
+    let stays = match simulation.model().config().damping.is_none() {
+        true => {
+            ": the error of the force becomes smaller, but without damping of the modes (damping.rail and the like) waves of \
+             high frequency lose their energy in steps of any length"
+        }
+        false => "",
     };
     let off = if force < load { format!("at most {force:.3e} N") } else { "as much as the nominal load".into() };
     format!(

@@ -151,7 +151,7 @@ pub fn locked() -> Result<Figure, String> {
     let warmth = run.warmth();
     // The reference is of a tenfold load.
     let heavy = Product::with("paper_d", |config| {
-        (config.physics.centrifugal, config.physics.thermal_expansion) = (false, false);
+        (config.physics.centrifugal, config.material.expansion) = (false, 0.0);
         config.thermal.max_speed = 30.0;
     })?;
     let heavy = heavy.rolling(SPEED, 2.0, |_| ())?;

@@ -93,15 +93,8 @@ impl<'a> Axes<'a> {
         let Some(first) = lines.first() else { return equation };
         let bodies = &first.problem.bodies;
         equation.ports = std::array::from_fn(|port| bodies.momentum[(axis.number(), port)]);
-        let pulls = first.iterate.all.pull[0].iter().zip(&equation.ports);
+        let pulls = first.iterate.all.pull.iter().zip(&equation.ports);
         equation.constant += pulls.map(|(pull, momentum)| pull * momentum).sum::<f64>();
-        for line in lines {
-            equation.constant += line.problem.share
-                * match axis {
-                    Axis::Rotation => line.problem.radius() * line.iterate.retarded.force.iter().sum::<f64>(),
-                    Axis::Travel | Axis::Height | Axis::Lateral => 0.0,
-                };
-        }
         for (other, motion) in self.rigid.iter() {
             let of_deformation = bodies.deformation_inertia[(axis.number(), other.number())];
             let inertia = of_deformation + if other == axis { own.inertia } else { 0.0 };

@@ -45,9 +45,6 @@ const MOMENT_TOLERANCE: f64 = 2e-8;
 /// Most iterations for that: in steps of less than a microsecond the moment is a small difference of large ones, which
 /// round-off keeps from balancing so well.
 const MOST_BALANCING: usize = 4;
-/// Change of the force of retarded layers in the last iteration that counts as none, over the nominal load \[1].
-const RETARDED_TOLERANCE: f64 = 1e-7;
-
 /// Distance of friction from its direction over the largest of the line, from which directions go on turning, and which is none \[1].
 const TELLING: f64 = 1e-3;
 const MISSED: f64 = 1e-9;
@@ -132,7 +129,6 @@ impl<'a> ActiveSet<'a> {
     /// Iterates from the states and forces of the start to the solution.
     pub fn run(mut self) -> Result<(), ContactError> {
         for line in &mut self.lines {
-            line.update_retarded();
             if line.problem.time.is_stationary() {
                 states::found_anew(line);
             }
@@ -223,9 +219,7 @@ impl<'a> ActiveSet<'a> {
             decided += usize::from(first);
             settled = !changed && (settled || self.edges_settled() || self.stands());
             first = first && !settled;
-            let relieved = self.update_retarded().abs() > RETARDED_TOLERANCE * self.problem.nominal_load;
-            let relieved = relieved && self.axes.seeks(Axis::Rotation);
-            let refined = settled && missed <= MISSED && !turned && !relieved && self.lines.iter().all(states::sticks);
+            let refined = settled && missed <= MISSED && !turned && self.lines.iter().all(states::sticks);
             let progress = match settled {
                 true if refined => Progress::Refined,
                 true => Progress::Settled,
@@ -266,11 +260,6 @@ impl<'a> ActiveSet<'a> {
             line.evaluate(axes.sought_accelerations(line.traction.rigid));
         }
         Ok(())
-    }
-
-    /// Takes the forces of retarded layers in the present iterate; returns the change of their sum [N/m].
-    fn update_retarded(&mut self) -> f64 {
-        self.lines.iter_mut().map(|line| line.problem.share * line.update_retarded()).sum()
     }
 
     /// Takes new states of nodes and brakes; returns whether any changed, and how far friction is from its directions \[1].

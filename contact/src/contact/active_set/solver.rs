@@ -34,7 +34,7 @@ impl ActiveSetSolver {
 fn begin<'a>(start: &ContactState, found: &'a mut ContactState, resumed: bool) -> LineStart<'a> {
     let before = &start.grid;
     let size_before = before.size;
-    let ContactState { traction, history, energy, damping, grid: state } = found;
+    let ContactState { traction, history, energy, grid: state } = found;
     let resumed = resumed.then(|| Resumed::take(state));
     state.copy_from(before);
     history.copy_from(&start.history);
@@ -43,7 +43,7 @@ fn begin<'a>(start: &ContactState, found: &'a mut ContactState, resumed: bool) -
     for (ours, theirs) in traction.surface.iter_mut().zip(&start.traction.surface) {
         copy(ours, theirs);
     }
-    LineStart { state, history, traction, energy, damping, resumed, size_before }
+    LineStart { state, history, traction, energy, resumed, size_before }
 }
 
 impl ActiveSetSolver {

@@ -5,7 +5,6 @@ use super::given::KnownPart;
 use super::grid::ContactGrid;
 use super::history::LineHistory;
 use super::resize::Nodes;
-use super::retarded::{PortForces, Retarded};
 use super::rim::{RimAngleRow, RimFrame};
 use super::slopes::Slopes;
 use super::state::{GridState, NodeStatus};
@@ -41,6 +40,15 @@ pub struct Before {
     pub pull: [Vec<f64>; 2],
 }
 
+/// Forces of all lines on the ports of the bodies, each line weighted with its share of the width.
+#[derive(Default)]
+pub struct PortForces {
+    /// Contact forces on the wheel [N/m].
+    pub contact: DVector<f64>,
+    /// Pulls of hot layers on the wheel [N/m]; empty: there are none.
+    pub pull: DVector<f64>,
+}
+
 /// Quantities of a line that follow from forces, states and motions in the present iterate.
 #[derive(Default)]
 pub struct LineIterate {
@@ -56,8 +64,6 @@ pub struct LineIterate {
     pub rim: RimAngleRow,
     /// Upwind differences of the slip.
     pub upwind: UpwindRows,
-    /// Forces of retarded layers.
-    pub retarded: Retarded,
     /// Depth by which yielding candidates have given way in the step; zero elsewhere \[m].
     pub overlap: Vec<f64>,
     /// Height that the flexibility of the line alone would have if it were the same in both directions, less that which it
@@ -139,7 +145,7 @@ impl LineScratch {
 pub struct ContactLine<'a> {
     pub grid: &'a ContactGrid,
     pub problem: &'a LineProblem<'a>,
-    /// Flexibility that it has for itself, as far as it answers at once.
+    /// Flexibility that it has for itself.
     pub kernel: LineKernel,
     /// Known part of the problem.
     pub given: &'a KnownPart,
@@ -147,9 +153,8 @@ pub struct ContactLine<'a> {
     pub state: &'a mut GridState,
     pub history: &'a mut LineHistory,
     pub traction: &'a mut Traction,
-    /// Elastic energy of the line's flexibility, and the power that it takes where it is retarded [J/m, W/m].
+    /// Elastic energy of the line's flexibility [J/m].
     pub energy: &'a mut f64,
-    pub damping: &'a mut f64,
     /// Displacements and pulls at the end of the step before.
     pub before: &'a Before,
     /// Frame that turns with the rim, at the angle of the present iterate.
@@ -170,8 +175,6 @@ pub struct LineStart<'a> {
     pub history: &'a mut LineHistory,
     pub traction: &'a mut Traction,
     pub energy: &'a mut f64,
-    /// Power that the retarded flexibility of the line takes [W/m].
-    pub damping: &'a mut f64,
     /// States and forces with which the search begins, if they are others.
     pub resumed: Option<Resumed>,
     /// Size of the nodes in the step before over that of the grid \[1].
@@ -204,7 +207,7 @@ impl<'a> ContactLine<'a> {
         start: LineStart<'a>,
         scratch: &'a mut LineScratch,
     ) -> Self {
-        let LineStart { state, history, traction, energy, damping, resumed, size_before } = start;
+        let LineStart { state, history, traction, energy, resumed, size_before } = start;
         let LineScratch { grid: own, before, given, iterate } = scratch;
         let grid = own.as_ref().unwrap_or(grid);
         if !problem.limits.is_limited() {
@@ -220,14 +223,13 @@ impl<'a> ContactLine<'a> {
         Self {
             grid,
             problem,
-            kernel: problem.kernel_at_once(),
+            kernel: problem.kernel,
             given,
             iterate,
             state,
             history,
             traction,
             energy,
-            damping,
             before: &*before,
             frame,
             surface_angle: 0.0,
@@ -317,13 +319,7 @@ impl<'a> ContactLine<'a> {
         self.iterate.upwind.update(&self.state.status, pressure, to_right, tolerance)
     }
 
-    /// Takes the forces of retarded layers in the present iterate; returns the change of their sum [N/m].
-    pub fn update_retarded(&mut self) -> f64 {
-        let LineIterate { retarded, all, .. } = &mut *self.iterate;
-        retarded.update(self.grid, self.problem, self.given, (&self.state.forces, all))
-    }
-
-    /// Flexibility that the line has for itself, as far as it answers at once, on its nodes.
+    /// Flexibility that the line has for itself, on its nodes.
     pub fn alone(&self) -> Alone<'_> {
         Alone { kernel: self.kernel, grid: self.grid }
     }

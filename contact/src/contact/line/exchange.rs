@@ -23,7 +23,9 @@ pub fn pulls(lines: &[LineProblem], scratch: &mut [LineScratch]) {
             if let (Some(displaced), Some(grid)) = (&displaced, &scratch.grid) {
                 scratch.given.add_pulled(grid, body, displaced);
             }
-            scratch.iterate.all.pull[body].clone_from(&sum);
+            if body == 0 {
+                scratch.iterate.all.pull.clone_from(&sum);
+            }
         }
     }
 }

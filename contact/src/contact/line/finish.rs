@@ -2,9 +2,9 @@
 
 use super::alone::Alone;
 use super::contact_line::{ContactLine, LineIterate};
-use super::retarded::nodal_loads;
+use super::grid::ContactGrid;
 use super::{exchange, observe};
-use crate::multistep::History;
+use nalgebra::DVector;
 
 /// Moves the histories of all lines on and reads off their tractions.
 pub fn finish(lines: &mut [ContactLine]) {
@@ -57,11 +57,10 @@ fn remember(line: &mut ContactLine) {
 
 /// Takes the loads on the bodies, the work of the pulls among them, and the energy of the line's own flexibility under them.
 fn load(line: &mut ContactLine) {
-    let ContactLine { grid, problem, given, state, before, traction, energy, damping, iterate, .. } = line;
+    let ContactLine { grid, problem, given, state, before, traction, energy, iterate, .. } = line;
     let (mut loads, alone) = (Vec::new(), Alone { kernel: problem.kernel.without_reach(), grid });
-    (traction.pull_work, **damping) = (0.0, 0.0);
-    let prompt = problem.bodies.retarded.iter().all(Option::is_none);
-    if prompt && given.layers.pull.iter().chain(&before.pull).all(Vec::is_empty) {
+    traction.pull_work = 0.0;
+    if given.layers.pull.iter().chain(&before.pull).all(Vec::is_empty) {
         // Both bodies are displaced alike by the contact forces, as in the last iterate.
         **energy += iterate.own.along.dot(&state.forces);
         traction.loads = [traction.port_forces.clone(), -&traction.port_forces];
@@ -83,19 +82,16 @@ fn load(line: &mut ContactLine) {
         nodal_loads(grid, &state.forces, &layers.pull[body], body, &mut loads);
         let sum = |component: usize| loads.iter().skip(component).step_by(2).sum::<f64>();
         **energy += problem.kernel.energy_of_reach([0, 1].map(sum));
-        if let Some(layer) = problem.bodies.retarded[body] {
-            let (time, known) = (&problem.time, &given.elastic[body]);
-            state.elastic[body].resize(grid.components(), History::default());
-            for ((history, load), known) in state.elastic[body].iter_mut().zip(&mut loads).zip(known) {
-                *load = layer.share * *load + known;
-                history.reach(time, *load);
-            }
-            let rates: Vec<f64> = state.elastic[body].iter().map(|history| history.rate).collect();
-            alone.find(&rates, &mut iterate.own);
-            **damping += layer.time * iterate.own.work(body, &rates);
-        }
         alone.find(&loads, &mut iterate.own);
         **energy += 0.5 * iterate.own.work(body, &loads);
         state.pull[body].clone_from(&layers.pull[body]);
     }
+}
+
+/// Writes the forces of a line on wheel (0) or rail (1), x and y of every node [N/m].
+fn nodal_loads(grid: &ContactGrid, contact: &DVector<f64>, pull: &[f64], body: usize, loads: &mut Vec<f64>) {
+    let sign = if body == 0 { 1.0 } else { -1.0 };
+    loads.clear();
+    loads.extend(contact.iter().map(|force| sign * force));
+    pull.iter().enumerate().for_each(|(i, pull)| loads[grid.component(i)] += pull);
 }

@@ -1,6 +1,5 @@
 //! Part of a line that is known before its contact forces are: gap, displacements and strength without them.
 
-use super::alone::{Alone, OwnDisplacement};
 use super::grid::ContactGrid;
 use super::hot_layers::HotLayers;
 use super::rim;
@@ -21,13 +20,10 @@ pub struct KnownPart {
     pub slip_offset: Vec<f64>,
     /// Displacement of the ports of wheel and rail without contact forces and without accelerations that are sought \[m].
     pub ports: [DVector<f64>; 2],
-    /// That of all nodes, with what forces of before and hot layers of the line itself displace \[m].
+    /// That of all nodes, with what hot layers of the line itself displace \[m].
     pub displacement: [DVector<f64>; 2],
     /// Thermal part of it.
     pub layers: HotLayers,
-    /// Elastic forces on wheel and rail without new forces, x and y of every node [N/m]; empty: the line answers at once.
-    pub elastic: [Vec<f64>; 2],
-    own: OwnDisplacement,
     /// Slope of the depth by which the rail lies below its plane, at the candidates \[1]; empty without any.
     pub rail_slope: Vec<f64>,
     /// Depths by which the surfaces of wheel and rail lie below circle and plane, at the candidates and one node beyond
@@ -55,7 +51,6 @@ impl KnownPart {
         for body in 0..2 {
             grid.expand(&self.ports[body], &mut self.displacement[body]);
             self.layers.add_to(body, &mut self.displacement[body]);
-            self.relax(grid, problem, state, body);
         }
         self.gap.clear();
         let layers = &self.layers;
@@ -77,19 +72,6 @@ impl KnownPart {
     pub fn add_pulled(&mut self, grid: &ContactGrid, body: usize, ports: &DVector<f64>) {
         self.ports[body] += ports;
         self.layers.moved_by_bodies(grid, body, ports, &mut self.displacement[body]);
-    }
-
-    /// Takes the elastic forces without new forces, where the flexibility of the line is retarded, and adds their displacement.
-    fn relax(&mut self, grid: &ContactGrid, problem: &LineProblem, state: &GridState, body: usize) {
-        let Self { elastic, own, displacement, .. } = self;
-        elastic[body].clear();
-        let Some(layer) = problem.bodies.retarded[body] else { return };
-        let (factor, histories) = (-layer.time * layer.share, &state.elastic[body]);
-        elastic[body].extend(histories.iter().map(|history| factor * history.offset(&problem.time)));
-        // A state without forces yet is at rest.
-        elastic[body].resize(grid.components(), 0.0);
-        Alone { kernel: problem.kernel.without_reach(), grid }.find(&elastic[body], own);
-        own.add_to(body, &mut displacement[body]);
     }
 
     /// Adds the depths of wheel and rail below circle and plane to the gap, and takes the slope of the rail.

@@ -54,7 +54,7 @@ impl HotLayers {
         self.force.resize(grid.components(), 0.0);
         pull.iter().enumerate().for_each(|(i, pull)| self.force[grid.component(i)] = *pull);
         self.on_ports[body] = grid.moments(&self.force);
-        Alone { kernel: problem.kernel_at_once(), grid }.find(&self.force, &mut self.own);
+        Alone { kernel: problem.kernel, grid }.find(&self.force, &mut self.own);
         *membrane = DVector::zeros(grid.components());
         self.own.add_to(body, membrane);
     }

@@ -191,7 +191,6 @@ impl ContactLine<'_> {
             sum.height += n;
             sum.rotation -= arm_t * t + arm_n * n;
         }
-        sum.rotation -= self.problem.radius() * self.iterate.retarded.force.iter().sum::<f64>();
         sum.lateral = self.state.lateral.iter().sum();
         sum
     }

@@ -7,7 +7,7 @@
 //! the flexibility that it has for itself, [`across`] its lateral direction, [`exchange`] how lines feel the forces of all,
 //! [`field`] what the lines of a patch do to each other, [`streamline`] the upwind differences of the slip,
 //! [`kernel`] the half-plane on the nodes, [`slopes`] the slopes against which pressure pushes,
-//! [`rim`] the frame that turns with the rim, [`retarded`] the forces of retarded layers, [`zone`] the ends of the
+//! [`rim`] the frame that turns with the rim, [`zone`] the ends of the
 //! grid, [`resize`] the way to nodes of another size. Of a solution [`power`] takes the power, [`observe`] the traction,
 //! with the [`slip_zone`] of every patch, and [`mod@finish`] both. Theory: `docs/theory/contact.md`.
 
@@ -26,7 +26,6 @@ pub(super) mod kinematics;
 pub mod observe;
 pub(super) mod power;
 pub(super) mod resize;
-pub(super) mod retarded;
 pub(super) mod rim;
 pub(super) mod rows;
 pub(super) mod slip_zone;

@@ -24,7 +24,7 @@ impl ContactLine<'_> {
         let rail = &self.state.surface[1];
         let slope = |i: usize| self.grid.slope(rail, i, 1) + self.swelling_slope(1, i);
         let load: f64 = self.loaded().map(|i| self.normal(i) * slope(i)).sum();
-        (self.rim_velocity() - self.traction.rigid.travel) * (load + self.iterate.retarded.force[1])
+        (self.rim_velocity() - self.traction.rigid.travel) * load
     }
 
     /// Power [W/m] that the passing material adds by expanding and shrinking against the contact forces. What the

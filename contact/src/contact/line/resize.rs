@@ -26,7 +26,7 @@ pub enum Nodes {
     /// They stay where they are as long as they suit: on dented surfaces.
     Staying,
     /// They are those of the grid: under steel that has softened patches become longer than their loads say, the displacement of an
-    /// elastic layer has the kinks of the shear, and retarded flexibility remembers forces at its nodes.
+    /// elastic layer has the kinks of the shear.
     OfTheGrid,
 }
 
@@ -148,8 +148,7 @@ impl GridState {
 
     /// Choice of nodes that suits a line, as far as its surfaces and its steel are concerned.
     pub fn suited(&self, problem: &LineProblem) -> Nodes {
-        let retarded = problem.bodies.retarded.iter().any(Option::is_some);
-        if retarded || problem.layer != 0.0 || !problem.limits.softened.is_empty() {
+        if problem.layer != 0.0 || !problem.limits.softened.is_empty() {
             Nodes::OfTheGrid
         } else if self.yielded.contains(&true) || problem.surfaces.uneven.is_some() {
             Nodes::Staying

@@ -97,8 +97,6 @@ pub struct GridState {
     pub surface: [DVector<f64>; 2],
     /// Pulls of hot layers at the candidates, on wheel and rail [N/m]; empty: there are none.
     pub pull: [Vec<f64>; 2],
-    /// Elastic forces on wheel and rail, x and y of every node, and their histories [N/m]; empty: the line answers at once.
-    pub elastic: [Vec<History>; 2],
 }
 
 /// Becomes equal to another vector of each direction or body and keeps its memory.
@@ -134,7 +132,6 @@ impl GridState {
             && none_or(self.reserve.len(), n)
             && self.widened.iter().all(|widened| none_or(widened.len(), n))
             && self.pull.iter().all(|pull| none_or(pull.len(), n))
-            && self.elastic.iter().all(|elastic| none_or(elastic.len(), components))
     }
 
     /// Becomes equal to another state and keeps its memory.
@@ -149,7 +146,6 @@ impl GridState {
         clone_each(&mut self.moved, &other.moved);
         clone_each(&mut self.widened, &other.widened);
         clone_each(&mut self.pull, &other.pull);
-        clone_each(&mut self.elastic, &other.elastic);
         copy(&mut self.forces, &other.forces);
         self.surface.iter_mut().zip(&other.surface).for_each(|(ours, theirs)| copy(ours, theirs));
     }

@@ -86,7 +86,7 @@ impl Section {
             SectionPart { end: cone, width: None, bare: rim_sides, top: rim - 1.0 },
             SectionPart { end: bottom, width: Some(rim), bare: rim_sides, top: 0.0 },
             SectionPart { end: boss, width: Some(t.web_width / strip), bare: web_sides, top: 0.0 },
-            SectionPart { end: thickness, width: Some(t.boss_width / strip), bare: 0.0, top: 0.0 },
+            SectionPart { end: thickness, width: Some(t.rim_width * t.boss / strip), bare: 0.0, top: 0.0 },
         ];
         Self { block: (t.block_width / strip).clamp(1.0, rim), ..Self::of_parts(&parts, strip, grading, 1.0 / radius) }
     }

@@ -1,17 +1,8 @@
 //! Conductance of the contact on its nodes.
 
 use super::transport::upwind_within;
-use crate::config::{ConductanceLaw, Thermal};
 use crate::linalg::vectorised::vectorised;
 use std::ops::Range;
-
-/// Conductance of all places in contact [W/(m² K)]; `None`: it depends on the pressure.
-pub fn even_conductance(thermal: &Thermal) -> Option<f64> {
-    match thermal.conductance_law {
-        ConductanceLaw::Constant => Some(thermal.conductance),
-        ConductanceLaw::Pressure => None,
-    }
-}
 
 /// First and one past the last element of the zone that conducts, from the moments `∫ k_c (1, ξ, ξ²) ds` on all of
 /// them.

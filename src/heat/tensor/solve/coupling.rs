@@ -21,8 +21,8 @@ pub struct Conduction<'a> {
     pub moments: &'a [[f64; 3]],
     /// Lengths of these elements [m].
     pub lengths: &'a [f64],
-    /// Conductance of all places in contact [W/(m² K)]; `None`: it depends on the place.
-    pub even: Option<f64>,
+    /// Conductance of all places in contact [W/(m² K)].
+    pub even: f64,
     /// Implicit coefficient β of the stage [s].
     pub flow: f64,
     /// Inverses of wheel and rail, and the matrices of the conductance that go with them.
@@ -50,7 +50,7 @@ impl Conduction<'_> {
 
     /// The conductance, if all elements but the first and the last one conduct all over.
     fn even_within(&self) -> Option<f64> {
-        let (value, last) = (self.even?, self.moments.len().checked_sub(1)?);
+        let (value, last) = (self.even, self.moments.len().checked_sub(1)?);
         let fills = |e: usize| {
             let pairs = self.moments[e].into_iter().zip(self.full(value, e));
             pairs.into_iter().all(|(moment, full)| (moment - full).abs() <= ROUND_OFF * full)

@@ -1,6 +1,6 @@
 //! Conduction through the contact of one line, and its buffers: what lines that share a stage do not share.
 
-use super::conductance::{ContactBands, conducting, even_conductance};
+use super::conductance::{ContactBands, conducting};
 use super::coupling::{Conduction, Coupling};
 use super::operators::{StageKey, StageOperators};
 use crate::heat::error::HeatError;
@@ -77,7 +77,7 @@ impl LineConduction {
                 side.present.set(moments, &operator.transport.upwind[body.streamline.zone + self.nodes.start..]);
                 side.inverted.set(moments, &operator.inverses.present().upwind[first..]);
             }
-            self.set_coupling(stage, layout, key, even_conductance(&layout.config.thermal))?;
+            self.set_coupling(stage, layout, key, layout.config.thermal.conductance)?;
         }
         self.key = Some(key);
         Ok(())
@@ -89,7 +89,7 @@ impl LineConduction {
         stage: &StageOperators,
         layout: &HeatLayout,
         key: StageKey,
-        even: Option<f64>,
+        even: f64,
     ) -> Result<(), HeatError> {
         let first = layout.wheel.streamline.zone + self.nodes.start;
         let [wheel, rail] = stage.bodies().map(|operator| &operator.inverses);
@@ -192,17 +192,17 @@ fn difference([wheel, rail]: &[ContactSide; 2], out: &mut Vec<f64>) {
 
 #[cfg(test)]
 impl LineConduction {
-    /// Temperature difference that conduction through the contact leaves of `jump`, by kept factors where it is `even`,
-    /// else by those of the matrix itself.
+    /// Temperature difference that conduction through the contact leaves of `jump`, by kept factors where `even` is its
+    /// conductance, else by those of the matrix itself.
     pub fn left_of(
         &mut self,
         stage: &StageOperators,
         layout: &HeatLayout,
-        even: Option<f64>,
+        (even, kept): (f64, bool),
         jump: &[f64],
     ) -> Vec<f64> {
         self.set_coupling(stage, layout, stage.key().unwrap(), even).unwrap();
-        assert_eq!(self.coupling.is_kept(), even.is_some());
+        assert_eq!(self.coupling.is_kept(), kept);
         let mut left = jump.to_vec();
         self.coupling.solve(&mut left);
         left

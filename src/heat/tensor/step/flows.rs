@@ -71,12 +71,12 @@ impl LineConduction {
         let sums = &mut of_wheel.sums;
         let wheel = stage.wheel.flows(&layout.wheel, sums, held[0], change.map(|rate| rate[0]), ahead);
         flows.stored_wheel += weight * wheel.stored;
-        flows.wheel_to_air += weight * (wheel.air + loads.radiation[0].heat);
+        flows.wheel_to_air += weight * wheel.air;
         flows.to_hub += if layout.wheel.modes.fixed { weight * wheel.fixed } else { 0.0 };
         let sums = &mut of_rail.sums;
         let rail = stage.rail.flows(&layout.rail, sums, held[1], change.map(|rate| rate[1]), ahead);
         flows.stored_rail += weight * rail.stored;
-        flows.rail_to_air += weight * (rail.air + loads.radiation[1].heat);
+        flows.rail_to_air += weight * rail.air;
         let entered = stage.rail.transport.entry.map_or(0.0, |(_, stream)| stream * loads.arriving);
         flows.outflow += weight * (rail.out - entered * layout.rail.modes.section);
     }

@@ -99,10 +99,6 @@ fn prepare(
     let state = beginning(line, begin, own);
     let loads = &mut own.loads;
     loads.set(layout, exchange, state.arriving)?;
-    let bodies = layout.bodies().into_iter().zip(layout.split(&state.values));
-    for ((body, field), radiation) in bodies.zip(&mut loads.radiation) {
-        radiation.set(body, &layout.config.thermal, field, dt);
-    }
     let now = loads.boundary(speeds);
     line.next.arriving = state.arriving;
     line.next.data = data(layout, state, exchange);

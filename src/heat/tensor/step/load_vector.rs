@@ -34,14 +34,13 @@ pub fn add_surface_loads(layout: &HeatLayout, (line, out): LineField) {
 
 /// Test that a line has other loads than those of [`set_surface_loads`].
 pub fn has_others(loads: &SurfaceLoads) -> bool {
-    let radiates = loads.radiation.iter().any(|radiation| !radiation.load.is_empty());
-    loads.arriving != 0.0 || !loads.sources.is_empty() || radiates
+    loads.arriving != 0.0 || !loads.sources.is_empty()
 }
 
-/// Adds these other loads to `out`: heat that enters with the rail, sources, and radiation.
+/// Adds these other loads to `out`: heat that enters with the rail, and sources.
 pub fn add_others(stage: &StageOperators, layout: &HeatLayout, loads: &SurfaceLoads, (line, out): LineField) {
     let bodies = layout.bodies().into_iter().zip(stage.bodies()).zip(&mut line.sides).zip(layout.split_mut(out));
-    for ((((body, operator), side), out), radiation) in bodies.zip(&loads.radiation) {
+    for (((body, operator), side), out) in bodies {
         let (transport, along) = (&operator.transport, &mut side.load);
         if let Some((node, stream)) = transport.entry
             && loads.arriving != 0.0
@@ -51,13 +50,6 @@ pub fn add_others(stage: &StageOperators, layout: &HeatLayout, loads: &SurfaceLo
         along.resize(body.streamline.len(), 0.0);
         if body.streamline.closed > 0.0 {
             loads.sources.add(layout, transport, along, out);
-        }
-        if !radiation.load.is_empty() {
-            along.fill(0.0);
-            for (e, h) in body.streamline.lengths.iter().enumerate() {
-                transport.add_load(&body.streamline, e, [*h, 0.5 * h], along);
-            }
-            body.add_load(0, along, &radiation.load, out);
         }
     }
 }

@@ -4,18 +4,12 @@
 //! ξ from 0 to 1 across an element, integrated piecewise between all break points (nodes of the mesh and of the
 //! profile, edges of the patches). Profiles may have kinks and jumps anywhere; their total heat is kept to round-off.
 
-use super::radiation::Radiation;
 use super::sources::SourceLoads;
-use crate::config::Thermal;
 use crate::heat::error::HeatError;
 use crate::heat::exchange::Exchange;
 use crate::heat::state::BoundaryState;
 use crate::heat::tensor::mesh::layout::HeatLayout;
-use crate::heat::tensor::solve::conductance::even_conductance;
 use crate::piecewise::{Interval, Piecewise, interpolate};
-
-/// Exponent of the pressure in the conductance of rough surfaces in plastic contact.
-const PRESSURE_EXPONENT: f64 = 0.95;
 
 /// Moments of all loads on the surface elements; linear in the data.
 #[derive(Clone, Debug, Default)]
@@ -33,8 +27,6 @@ pub struct SurfaceLoads {
     pub reversible: Vec<[f64; 2]>,
     /// Heat content over `ρc` of the rail that enters with the stream \[K].
     pub arriving: f64,
-    /// Radiation of wheel and rail.
-    pub radiation: [Radiation; 2],
 }
 
 impl SurfaceLoads {
@@ -43,8 +35,8 @@ impl SurfaceLoads {
         self.friction_share * self.friction.iter().map(|q| q[0]).sum::<f64>()
     }
 
-    /// Replaces the loads by the moments of `exchange` on the surface elements, radiation excepted; `arriving` is the
-    /// heat content over `ρc` of the rail that enters \[K].
+    /// Replaces the loads by the moments of `exchange` on the surface elements; `arriving` is the heat
+    /// content over `ρc` of the rail that enters \[K].
     pub fn set(&mut self, layout: &HeatLayout, exchange: &Exchange, arriving: f64) -> Result<(), HeatError> {
         self.friction_share = 1.0;
         self.arriving = arriving;
@@ -58,7 +50,7 @@ impl SurfaceLoads {
         }
         self.conductance.clear();
         self.conductance.resize(layout.zone_elements(), [0.0; 3]);
-        zone.add_conductance(thermal, exchange, &mut self.conductance)?;
+        zone.add_conductance(thermal.conductance, &exchange.patches, &mut self.conductance)?;
         self.reversible.clear();
         if !exchange.reversible.is_empty() {
             zone.add_reversible(&exchange.reversible, &self.conductance, &mut self.reversible)?;
@@ -130,45 +122,15 @@ impl Zone<'_> {
     }
 
     /// Adds the moments of the conductance of all patches.
-    fn add_conductance(&self, thermal: &Thermal, exchange: &Exchange, out: &mut [[f64; 3]]) -> Result<(), HeatError> {
-        for patch in &exchange.patches {
+    fn add_conductance(&self, value: f64, patches: &[Interval], out: &mut [[f64; 3]]) -> Result<(), HeatError> {
+        for patch in patches {
             if patch.low.is_nan() || patch.high.is_nan() || patch.low > patch.high {
                 let Interval { low, high } = patch;
                 let why = format!("contact patch from {low} m to {high} m: its ends must be numbers and ascend");
                 return Err(HeatError::Exchange(why));
             }
-            match even_conductance(thermal) {
-                Some(value) => {
-                    self.over_elements("contact patch", [patch.low, patch.high], &mut |e, xi, _, length| {
-                        add_moments(&mut out[e], xi, length, &|_| value);
-                    })?
-                }
-                None => self.add_pressed(thermal, patch, &exchange.pressure, out)?,
-            }
-        }
-        Ok(())
-    }
-
-    /// Adds the moments of the conductance of one patch that depends on the pressure.
-    fn add_pressed(
-        &self,
-        thermal: &Thermal,
-        patch: &Interval,
-        pressure: &Piecewise,
-        out: &mut [[f64; 3]],
-    ) -> Result<(), HeatError> {
-        let law = |p: f64| thermal.conductance * libm::pow(p.max(0.0) / thermal.reference_pressure, PRESSURE_EXPONENT);
-        check("contact pressure", pressure)?;
-        for (x, p) in pressure.segments() {
-            let inside = [x[0].max(patch.low), x[1].min(patch.high)];
-            if inside[1] <= inside[0] {
-                continue;
-            }
-            let pressure = |place: f64| p[0] + (place - x[0]) / (x[1] - x[0]) * (p[1] - p[0]);
-            let (from, to) = (pressure(inside[0]), pressure(inside[1]));
-            self.over_elements("contact pressure", inside, &mut |e, xi, at, length| {
-                let along = |f: f64| from + (at[0] + f * (at[1] - at[0])) * (to - from);
-                add_moments(&mut out[e], xi, length, &|f| law(along(f)));
+            self.over_elements("contact patch", [patch.low, patch.high], &mut |e, xi, _, length| {
+                add_moments(&mut out[e], xi, length, value);
             })?;
         }
         Ok(())
@@ -210,14 +172,13 @@ fn check(name: &'static str, profile: &Piecewise) -> Result<(), HeatError> {
     profile.check().map_err(|why| HeatError::Exchange(format!("{name}: {why}")))
 }
 
-/// Adds `∫ c (1, ξ, ξ²) ds` over a part of an element by Gauss quadrature (3 points); `c` takes the fraction of the
-/// part.
-fn add_moments(out: &mut [f64; 3], xi: [f64; 2], length: f64, c: &dyn Fn(f64) -> f64) {
+/// Adds `∫ c (1, ξ, ξ²) ds` over a part of an element by Gauss quadrature (3 points).
+fn add_moments(out: &mut [f64; 3], xi: [f64; 2], length: f64, c: f64) {
     const POINTS: [(f64, f64); 3] =
         [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
     for (f, weight) in POINTS {
         let x = xi[0] + f * (xi[1] - xi[0]);
-        let value = weight * length * c(f);
+        let value = weight * length * c;
         out[0] += value;
         out[1] += value * x;
         out[2] += value * x * x;

@@ -9,6 +9,5 @@ pub mod load_vector;
 pub mod loads;
 pub mod memory;
 mod plan;
-pub mod radiation;
 pub mod sources;
 pub mod stationary;

@@ -77,7 +77,7 @@ pub fn after_long_rolling(
 }
 
 /// Temperatures that a wheel loses and the rail gains where they touch, as after many turns, if the mean temperature of
-/// the tread is `tread` \[K]; of `exchange` only patches and pressure count.
+/// the tread is `tread` \[K]; of `exchange` only patches count.
 ///
 /// They are the stationary state of a wheel that is kept warm by even heat on its tread, less the mean along every
 /// streamline of the wheel, which changes within minutes. The modal solver is exact enough for it: its error acts on
@@ -86,7 +86,6 @@ fn passing(heat: &Heat, speeds: [f64; 2], exchange: &Exchange, tread: f64) -> Re
     let layout = &heat.layout;
     let even = Exchange {
         patches: exchange.patches.clone(),
-        pressure: exchange.pressure.clone(),
         sources: vec![HeatSource::on_tread(0.0, 2.0 * PI, 1.0)],
         ..Exchange::default()
     };
