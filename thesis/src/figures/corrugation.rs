@@ -66,7 +66,7 @@ pub fn mesh() -> Result<Figure, String> {
         item: "A T1",
         title: "Amplitude on waves over the mesh",
         status: Status::Agrees,
-        parameters: "Waves of 5 µm and 5 cm, 100 km/h, Crank–Nicolson, 5e-5 s, α₁ = 1e-4 s, non-reflecting ends. Base mesh and radii of \
+        parameters: "Waves of 5 µm and 5 cm, 100 km/h, Crank–Nicolson, 5e-5 s, α₁ = 1e-4 s (the product: a damper of the hub of the same ratio), non-reflecting ends. Base mesh and radii of \
                      refinement are not stated: three base meshes, of which the one of 10 mm has the numbers of triangles nearest to the thesis's.",
         finding: format!(
             "Refinements of the wheel, nodes of the rail: {}. From n_r = 3 on the thesis's own method gives the stated ratios within {:.1} %; \
@@ -236,7 +236,7 @@ pub fn force() -> Result<Figure, String> {
         item: "A 11",
         title: "Force over time on waves of three amplitudes",
         status: Status::NotStated,
-        parameters: "Waves of 5 cm, 100 km/h, 5e-5 s, α₁ = 1e-4 s; the amplitudes, 1, 2.5 and 5 µm, are assumed, the last being that of the \
+        parameters: "Waves of 5 cm, 100 km/h, 5e-5 s, α₁ = 1e-4 s (ours: a damper of the hub of the same ratio); the amplitudes, 1, 2.5 and 5 µm, are assumed, the last being that of the \
                      study of meshes.",
         finding: format!(
             "Linear in the amplitude, as stated: 5 µm act {:+.2} % more than in proportion to 1 µm in ours, {:+.2} % by the thesis's method, \
@@ -310,7 +310,7 @@ pub fn excitation(extent: Extent) -> Result<Figure, String> {
         title: "Amplitude on waves over the excitation",
         status: Status::ThesisError,
         parameters: "Waves of 5 cm; the velocities, 30 to 150 km/h, and 5 µm, the amplitude of the study of meshes, are assumed. \
-                     Closed form: mass 5265 kg/m on the contact resonance of 2922 rad/s, filter J₀(2πa/λ), α₁ = 1e-4 s.",
+                     Closed form: mass 5265 kg/m on the contact resonance of 2922 rad/s, filter J₀(2πa/λ), α₁ = 1e-4 s; ours has a damper of the hub of the same ratio, its amplitudes are scaled to such a loss factor.",
         finding: format!(
             "Peak at ω = {closed:.0} rad/s, {top:.3} MN/m in closed form, {:.0} rad/s in ours, {:.0} rad/s by the thesis's method with its \
              step and a mesh of its size, stated 3.05e3 rad/s: they are ω = 2πV/λ. V/λ, as the thesis has it, is {:.0} 1/s there. Waves of 13.08 mm, the first null of the \

@@ -152,7 +152,7 @@ pub fn densities() -> Result<Figure, String> {
         title: "Probability density of the force on a rough rail",
         status: Status::Qualitative,
         parameters: "Rail of figure A 7, 8.3 m behind a start of 0.6 m, steps of 1.39 mm (5e-5 s at 100 km/h), 6000 of them. Assumed: 50, 75, \
-                     100 km/h; 2.35, 4.7, 7.05 MN/m; point masses of 0, 1, 2 t/m; classes of a fortieth of the range.",
+                     100 km/h; 2.35, 4.7, 7.05 MN/m; point masses of 0, 1, 2 t/m; classes of a fortieth of the range. Ours has a damper of the hub of the ratio that α₁ gives the bounce.",
         finding: format!(
             "Standard deviations in MN/m: {} over the velocity, {} over the load, {} over the mass. As stated, the density narrows at low \
              velocity, shifts with the load and changes with the mass. The thesis's method on a mesh of its size has {:.3} MN/m. It took 50 \
