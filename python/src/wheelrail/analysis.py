@@ -12,7 +12,7 @@ import numpy as np
 from . import report, signals, surfaces, units
 from .output import fresh, write_rows
 from .page.units import guessed
-from .tables import BadFile, number_in, read_table
+from .tables import BadFile, headings_of, number_in, read_table
 from .units import UnitError, converted, headed, named
 
 FORCE = "contact.force_y"
@@ -123,9 +123,8 @@ def save(path, draw):
 def _signal(options):
     """Column of time or position and column of values, from where they count."""
     if options.command == "octaves" and options.over == "time" and options.column == FORCE:
-        with open(options.file, encoding="utf-8-sig", errors="replace") as file:
-            if {"position", "height"} <= {headed(name)[0] for name in file.readline().split(",")}:
-                options.over, options.column = "position", "height"
+        if {"position", "height"} <= {headed(heading)[0] for heading in headings_of(options.file)}:
+            options.over, options.column = "position", "height"
     over, values = read_columns(options.file, (options.over, options.column))
     kept = over >= options.begin
     over, values = signals.checked(over[kept], values[kept])

@@ -72,6 +72,12 @@ def read_table(path: str | Path) -> tuple[list[str], int, Iterator[tuple[int, li
     return names, head, _rows(path, len(names), head, lines[1:])
 
 
+def headings_of(path: str | Path) -> list[str]:
+    """What seem to be the names of the columns of a file, whatever it is."""
+    with open(path, encoding="utf-8-sig", errors="replace") as file:
+        return [name.strip() for name in file.readline().split(",")]
+
+
 def _rows(path, width, head, lines):
     """Line and cells of every row; one with other cells than names is refused."""
     for line, text in lines:

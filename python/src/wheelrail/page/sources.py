@@ -11,7 +11,7 @@ from fmpy import read_model_description
 
 from ..files import BadFile
 from ..fmu import default_path
-from ..tables import text_of
+from ..tables import comma, headings_of, read_table
 from ..units import UnitError, converted, headed, unit_of
 from . import stops
 from .run import Profiles, Run, Series, of_dataset, seen_lines, seen_rows
@@ -87,17 +87,16 @@ def _vehicle_mass(fmu, about):
 def table(path):
     """Names and columns of a CSV: name to (unit or None, values), times in s. Columns may say `name [unit]`."""
     try:
-        rows = [line.strip() for line in text_of(path).split("\n")]
+        headings, head, lines = read_table(path)
     except BadFile as failure:
         raise BadFile(f"{failure}; expected a record in NetCDF or a CSV, such as that of `wheelrail simulate --out`") from None
-    numbered = [(k, line) for k, line in enumerate(rows, start=1) if line and not line.startswith("#")]
-    names = [headed(name.strip()) for name in numbered[0][1].split(",")] if numbered else []
+    names = [headed(heading) for heading in headings]
     if "time" not in dict(names):
-        raise BadFile(f"{path}:{numbered[0][0] if numbered else 1}: no column `time`; the first line names the columns")
-    if len(numbered) < 3:
-        raise BadFile(f"{path}: {len(numbered) - 1} lines of values; a curve needs two")
-    values = _values(path, numbered[1:], len(names))
-    columns = {name: (unit, column) for (name, unit), column in zip(names, values.T)}
+        raise BadFile(f"{path}:{head}: no column `time`; the first line names the columns")
+    rows = [[_number(path, line, *pair) for pair in zip(headings, cells)] for line, cells in lines]
+    if len(rows) < 2:
+        raise BadFile(f"{path}: {len(rows)} lines of values; a curve needs two")
+    columns = {name: (unit, column) for (name, unit), column in zip(names, np.array(rows).T)}
     columns["time"] = "s", _in(path, "time", columns["time"], "s")
     _ascending(path, columns["time"][1])
     return list(columns), columns
@@ -111,25 +110,12 @@ def _in(path, name, column, expected):
         raise BadFile(f"{path}: {error}") from None
 
 
-def _values(path, numbered, width):
-    """The numbers of lines of a CSV; flags, as FMI (true) or Python and pandas (True) write them, count 1 and 0."""
+def _number(path, line, name, cell):
+    """The number in a cell; flags, as FMI (true) or Python and pandas (True) write them, count 1 and 0, an empty one is unknown."""
     try:
-        values = np.loadtxt((line for _, line in numbered), delimiter=",", ndmin=2)
-        if values.shape[1] == width:
-            return values
+        return FLAGS[cell.lower()] if cell.lower() in FLAGS else float(cell or "nan")
     except ValueError:
-        pass
-    values = np.empty((len(numbered), width))
-    for row, (line, text) in zip(values, numbered):
-        cells = text.split(",")
-        if len(cells) != width:
-            raise BadFile(f"{path}:{line}: {len(cells)} entries, the first line has {width}")
-        for k, cell in enumerate(map(str.strip, cells)):
-            try:
-                row[k] = FLAGS[cell.lower()] if cell.lower() in FLAGS else float(cell or "nan")
-            except ValueError:
-                raise BadFile(f"{path}:{line}: {cell[:40]!r} in column {k + 1} is no number") from None
-    return values
+        raise BadFile(f"{path}:{line}: {name} is {cell[:40]!r}, no number{comma(cell)}") from None
 
 
 def _ascending(path, time):
@@ -191,9 +177,7 @@ def _directory(path):
     """The stops of a directory of results: every CSV with columns of a stop, the shortest first."""
     found = {}
     for file in sorted(path.glob("*.csv")):
-        with open(file, encoding="utf-8-sig", errors="replace") as opened:
-            header = [headed(name.strip())[0] for name in opened.readline().split(",")]
-        if stops.recognised(header):
+        if stops.recognised(headed(heading)[0] for heading in headings_of(file)):
             found[file.stem.removeprefix("train_").replace("_", " ")] = _stop(file, table(file)[1])
     if not found:
         raise BadFile(
