@@ -140,7 +140,8 @@ def _force(options):
     lines = [f"{options.column} over {time[-1] - time[0]:.4g} s, {len(time)} samples", ""]
     words = {"deviation": "standard deviation", "least": "smallest", "at_zero": "share of time at or below zero"}
     lines += [f"{words.get(name, name):32s} {value:14.6g}" for name, value in vars(found).items()]
-    lines += [f"{f'not exceeded {100 * q:g} % of the time':32s} {_quantile(levels, above, q):14.6g}" for q in SHARES]
+    level = lambda share: levels[min(int(np.searchsorted(-above, share - 1.0)), len(levels) - 1)]  # not exceeded for a share of the time
+    lines += [f"{f'not exceeded {100 * q:g} % of the time':32s} {level(q):14.6g}" for q in SHARES]
     rows = [(0.5 * (low + high), share, np.interp(0.5 * (low + high), levels, above)) for low, high, share in zip(edges, edges[1:], density)]
 
     def draw(axis):
@@ -152,11 +153,6 @@ def _force(options):
         other.grid(False)
 
     return "force", (options.column, "density", "exceedance"), rows, lines, draw
-
-
-def _quantile(levels, above, share):
-    """Level that is not exceeded for a share of the time."""
-    return levels[min(int(np.searchsorted(-above, share - 1.0)), len(levels) - 1)]
 
 
 def _spectrum(options):

@@ -141,7 +141,8 @@ def report(run: xarray.Dataset, *, steel: Mapping[str, float] = STEEL, base: flo
     whole = {name: int(last.pop(name)) for name in ("flats", "hot_places")}
     numbers = {name: float(value) for name, value in last.items() if name not in ("peak_temperature", "hottest_point")}
     # While the point that was hottest longest is above 500 degC, steel that is cold has cooled at least as fast as martensite needs.
-    rate = numbers["cooling_rate"] or _parameter(run, "damage.critical_cooling", 50.0)
+    given = json.loads(run.attrs.get("parameters", "{}"))
+    rate = numbers["cooling_rate"] or float(given.get("damage.critical_cooling", 50.0))
     hard = hardness(martensite, rate, steel, base)
     if whole["hot_places"]:
         hard[(run["depth"].values <= numbers["ac1_depth"]) & (martensite == 0.0)] = np.nan
@@ -163,11 +164,6 @@ def hardness(martensite: np.ndarray, cooling_rate: float, steel: Mapping[str, fl
     quenched += 21.0 * np.log10(max(3600.0 * cooling_rate, 1.0))
     share = np.clip(martensite, 0.0, 1.0)
     return share * quenched + (1.0 - share) * base
-
-
-def _parameter(run: xarray.Dataset, name: str, default: float) -> float:
-    """A parameter of the run."""
-    return float(json.loads(run.attrs.get("parameters", "{}")).get(name, default))
 
 
 def settle(wheel: Wheel, *, step: float = 5e-3, longest: float = 120.0, progress: bool = True) -> float:

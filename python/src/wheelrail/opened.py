@@ -242,7 +242,7 @@ class Instance(Unique):
         with self._calls, self._calls.lock:
             for variable, value in given:
                 if variable.type != "Real":
-                    self._calls(self._access("set", variable), [variable.valueReference], [value])
+                    self._calls(getattr(self.slave, "set" + kind(variable)), [variable.valueReference], [value])
             if reals:
                 self._calls(self.slave.setReal, *map(list, zip(*reals)))
 
@@ -350,9 +350,6 @@ class Instance(Unique):
     def forget(self, saved: tuple[object, float]) -> None:
         """Frees a saved state."""
         self._calls(self.slave.freeFMUstate, saved_state(saved)[0])
-
-    def _access(self, direction, variable):
-        return getattr(self.slave, direction + kind(variable))
 
 
 def instance(fmu: Fmu, name: str, call: Calls) -> Any:

@@ -61,14 +61,9 @@ def export(run: xarray.Dataset, folder: str | Path, *, along: int = 81, across: 
     names = [f"patch_{k:05d}.vti" for k in range(grid.sizes["time"])]
     x, z = grid["x"].values, grid["z"].values
     for k, name in enumerate(names):
-        write(place / name, image({f"{key} [{_unit(grid[key])}]": grid[key].values[k] for key in grid.data_vars}, x, z))
+        write(place / name, image({f"{key} [{grid[key].attrs['units']}]": grid[key].values[k] for key in grid.data_vars}, x, z))
     write(place / "patch.pvd", index(grid["time"].values, names))
     return folder / "patch.pvd"
-
-
-def _unit(values: xarray.DataArray) -> str:
-    """Unit of a quantity."""
-    return values.attrs["units"]
 
 
 def add_command(commands: Any) -> None:

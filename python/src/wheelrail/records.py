@@ -75,14 +75,11 @@ class Recorder:
         self._inputs = inputs
         self._readers = [_reader(wheel, sort, variables) for sort in BUFFERS]
         self._readers = [reader for reader in self._readers if reader]
-        self._depths = wheel.profile("depth") if self._over_depth() else None
+        self._depths = wheel.profile("depth") if any(_place(name) == "depth" for name in self.arrays) else None
         self._settings = settings(wheel)
         self._warnings, self._heard = [], 0
         self._samples, self._steps = [], []  # (time, values); times
         self.sample()
-
-    def _over_depth(self):
-        return any(name.removeprefix("profile.") in BELOW for name in self.arrays)
 
     def stepped(self) -> None:
         """Takes note of a step, and a sample if it is its turn; of one that is known, nothing."""

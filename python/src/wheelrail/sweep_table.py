@@ -98,12 +98,9 @@ class Table:
             if row[SCENARIO] != self.name:
                 raise BadFile(f"{self.path}:{line}: a row of another scenario ({row[SCENARIO]}, this is {self.name}){other}")
         try:
-            return [self._row(row) for row in rows]
+            return [{k: parsed(k, row[k]) for k in self.keys} | {k: float(row[k]) for k in self.results} for row in rows]
         except (ValueError, TypeError) as error:
             raise BadFile(f"{self.path}: a row cannot be read: {error}{other}") from None
-
-    def _row(self, row):
-        return {key: parsed(key, row[key]) for key in self.keys} | {name: float(row[name]) for name in self.results}
 
 
 def unfinished(path):

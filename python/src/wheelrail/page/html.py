@@ -82,11 +82,6 @@ def table(rows, kind="", header=True):
     return f'<div class="scroll"><table class="{kind}">{top}<tbody>{body}</tbody></table></div>'
 
 
-def folded(summary, content):
-    """Content that opens at a click."""
-    return f"<details><summary>{escape(summary)}</summary>{content}</details>"
-
-
 def notice(lines):
     """A box of warnings."""
     return '<ul class="warnings">' + "".join(f"<li>{escape(line)}</li>" for line in lines) + "</ul>"
