@@ -22,7 +22,7 @@ from .folder import TemporaryFolder
 from .instances import loaded, scalars
 from .times import after
 from .units import named
-from .values import Refused, Unique, check_names, kind, plain, saved_state, short, to_fmu
+from .values import Refused, Unique, check_names, first_line, kind, plain, saved_state, short, to_fmu
 
 ROUNDING = 1e-14  # relative difference of times that is rounding of one sum
 _numbers = count(1)
@@ -74,7 +74,7 @@ def _unpacked(path):
 
 def _no_fmu(path, failure):
     """The refusal of a file that is no FMU."""
-    return Refused(f"{path} is no FMU: {(str(failure).splitlines() or [type(failure).__name__])[0]}")
+    return Refused(f"{path} is no FMU: {first_line(failure)}")
 
 
 class Fmu(Unique):

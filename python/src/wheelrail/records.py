@@ -20,7 +20,7 @@ from . import output
 from .instances import BUFFERS
 from .opened import Instance
 from .origin import settings
-from .values import Refused, kind, short
+from .values import Refused, first_line, kind, short
 
 if TYPE_CHECKING:
     import pandas
@@ -250,18 +250,23 @@ def load(path: str | Path) -> xarray.Dataset:
     xarray = library("xarray")
     try:
         if path.suffix == ".nc":
-            library("h5netcdf")
-            return xarray.load_dataset(path, engine="h5netcdf")  # spans of time are such, numbers of seconds stay numbers
+            return of_netcdf(path)
         library("pyarrow")
         frame = library("pandas").read_parquet(path, engine="pyarrow")
     except (OSError, ValueError) as failure:
-        raise ValueError(f"{path} is no {path.suffix[1:]} file that can be read: {_first_line(failure)}") from failure
+        raise ValueError(f"{path} is no {path.suffix[1:]} file that can be read: {first_line(failure)}") from failure
     if "variables" not in frame.attrs or frame.index.name != "time":
         raise ValueError(f"{path} holds a table, but none that wheelrail.save has written")
     run = xarray.Dataset.from_dataframe(frame).assign_attrs(frame.attrs["run"])
     for name, text in frame.attrs["variables"].items():
         run[name].attrs = text
     return run
+
+
+def of_netcdf(path: str | Path) -> xarray.Dataset:
+    """The Dataset of a file whose spans of time are such; numbers of seconds stay numbers."""
+    library("h5netcdf")
+    return library("xarray").load_dataset(path, engine="h5netcdf")
 
 
 def _kind_of_file(path):
@@ -279,11 +284,6 @@ def _checked(run, call):
         expected = "expected the Dataset of a run, of simulate() or of a recorder's dataset()"
         raise ValueError(f"{call}({type(run).__name__}): {expected}")
     return run
-
-
-def _first_line(failure):
-    """The first line of what went wrong."""
-    return (str(failure).splitlines() or [type(failure).__name__])[0]
 
 
 def library(name: str) -> ModuleType:

@@ -11,7 +11,7 @@ import inspect
 import json
 import math
 import time
-from contextlib import nullcontext
+from contextlib import closing, nullcontext
 from itertools import product
 from pathlib import Path
 from types import SimpleNamespace
@@ -168,12 +168,8 @@ def results(scenario, dry, path, limit):
         from distributed import get_worker
 
         path = Path(get_worker().local_directory) / path
-    with Fmu(path) if path else nullcontext() as fmu:
-        run = Stop(scenario, fmu, dry)
-        try:
-            found = figures(run.run(watch(limit)))
-        finally:
-            run.close()
+    with Fmu(path) if path else nullcontext() as fmu, closing(Stop(scenario, fmu, dry)) as run:
+        found = figures(run.run(watch(limit)))
     worst = lambda name: min if name == "mean adhesion" else max
     values = {name: found[name][0] for name in (RESULTS if dry is None else OF_DRY)}
     return {name: float(worst(name)(known(v)) if isinstance(v, list) else v) for name, v in values.items()}

@@ -7,6 +7,7 @@ of rails and wheels are read by the same rules.
 
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -91,19 +92,9 @@ def _rows(path, width, head, lines):
 
 def _cells(path, line, text):
     """Cells of a line without the blanks and the quotes around them."""
-    if '"' not in text:
-        return [cell.strip() for cell in text.split(",")]
-    quoted, cells = False, [""]
-    for letter in text:
-        quoted ^= letter == '"'
-        if letter == "," and not quoted:
-            cells.append("")
-        else:
-            cells[-1] += letter
-    if quoted:
+    if text.count('"') % 2:
         raise BadFile(f"{path}:{line}: a quote is not closed in this line")
-    bare = lambda cell: cell[1:-1].strip() if len(cell) > 1 and cell[0] == cell[-1] == '"' else cell
-    return [bare(cell.strip()) for cell in cells]
+    return [cell.strip() for cell in next(csv.reader([text], skipinitialspace=True))]
 
 
 def number_in(path: str | Path, line: int, name: str, cell: str) -> float:

@@ -78,11 +78,8 @@ class Run:
 def of_table(title, fmu, names, table, patch=None, about=None):
     """The run of a table whose columns are `time` and the variables `names` of an opened `Fmu`, which says what they are."""
     table = np.asarray(table, float)
-    unit = lambda v: v.unit or (v.declaredType.unit if v.declaredType is not None else None) or ""
-    series = {
-        name: Series(table[:, k], unit(fmu.variable(name)), fmu.variable(name).description or "")
-        for k, name in enumerate(names, 1)
-    }
+    known = {name: fmu.variable(name) for name in names}
+    series = {name: Series(table[:, k], v.unit or "", v.description or "") for k, (name, v) in enumerate(known.items(), 1)}
     about = {"fmu_version": fmu.description.version or ""} | (about or {})
     return Run(title, table[:, 0], series, seen_rows(patch) if patch else None, about=about)
 

@@ -12,7 +12,9 @@ from fmpy import read_model_description
 from ..files import BadFile
 from ..fmu import default_path
 from ..tables import comma, headings_of, read_table
+from ..records import of_netcdf
 from ..units import UnitError, converted, headed, unit_of
+from ..values import first_line
 from . import stops
 from .run import Profiles, Run, Series, of_dataset, seen_lines, seen_rows
 from .units import guessed
@@ -45,16 +47,11 @@ def read(path, fmu=None):
 
 def _netcdf(path, fmu):
     try:
-        import xarray
-
-        with xarray.open_dataset(path, engine="h5netcdf") as dataset:
-            loaded = dataset.load()
-    except ImportError:
-        raise BadFile(f"{path}: NetCDF is read by xarray, h5netcdf and h5py: pip install 'wheelrail[records]'") from None
+        loaded = of_netcdf(path)
+    except ImportError as error:
+        raise BadFile(f"{path}: {error}") from None
     except Exception as error:  # Whatever the libraries below say of a file that is damaged or something else.
-        raise BadFile(
-            f"{path}: is no NetCDF file that xarray reads ({(str(error) or type(error).__name__).splitlines()[0]})"
-        ) from error
+        raise BadFile(f"{path}: is no NetCDF file that xarray reads ({first_line(error)})") from error
     if "time" not in loaded.coords or loaded["time"].ndim != 1:
         raise BadFile(f"{path}: has no dimension `time`; expected a record as wheelrail.records writes them")
     try:
@@ -135,7 +132,7 @@ def _description(fmu):
     try:
         return read_model_description(str(path), validate=False)
     except Exception as error:  # Whatever the libraries below say of what is no FMU.
-        raise BadFile(f"--fmu {path}: is no FMU: {(str(error) or type(error).__name__).splitlines()[0]}") from None
+        raise BadFile(f"--fmu {path}: is no FMU: {first_line(error)}") from None
 
 
 def _described(fmu):
@@ -143,8 +140,7 @@ def _described(fmu):
     description = _description(fmu)
     if description is None:
         return {}
-    unit = lambda v: v.unit or (v.declaredType.unit if v.declaredType is not None else None) or ""
-    return {v.name: (unit(v), v.description or "") for v in description.modelVariables}
+    return {v.name: (v.unit or "", v.description or "") for v in description.modelVariables}
 
 
 def _of_csv(path, columns, described):
