@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from fnmatch import fnmatchcase
 from io import BytesIO
 from math import isclose
+from operator import itemgetter
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, TypeVar
@@ -102,12 +103,9 @@ class Recorder:
 
     def rewind(self, time: float) -> None:
         """Drops steps, samples and warnings from after a time [s]."""
-        while self._warnings and self._warnings[-1][0] > time:
-            self._warnings.pop()
-        while self._steps and self._steps[-1] > time:
-            self._steps.pop()
-        while self._samples and self._samples[-1][0] > time:
-            self._samples.pop()
+        for entries, at in ((self._warnings, itemgetter(0)), (self._steps, float), (self._samples, itemgetter(0))):
+            while entries and at(entries[-1]) > time:
+                entries.pop()
 
     def listen(self) -> None:
         """Takes note of new warnings and refusals, with the time that they name, or else that of the sample."""

@@ -1,6 +1,7 @@
 """Key figures of a stop in the manner of EN 15595: table of several stops side by side, and CSV."""
 
 import math
+from itertools import groupby
 
 import numpy as np
 
@@ -100,11 +101,7 @@ def known(values):
 
 def longest(flags):
     """Most flags in a row."""
-    best = now = 0
-    for flag in flags:
-        now = now + 1 if flag else 0
-        best = max(best, now)
-    return best
+    return max((len(list(run)) for flag, run in groupby(flags) if flag), default=0)
 
 
 def standing(table):

@@ -123,12 +123,9 @@ def window(name: str, count: int) -> np.ndarray:
 def amplitudes(positions: ArrayLike, values: ArrayLike, taper: str = "flattop") -> tuple[np.ndarray, np.ndarray]:
     """Frequencies (n // 2 + 1,) [1/unit of positions] and amplitudes of the sinusoids in a signal, in its unit, without its mean."""
     positions, values = checked(positions, values)
-    step, shape = spacing(positions), window(taper, len(values))
-    lines = np.abs(np.fft.rfft((values - np.mean(values)) * shape)) * 2.0 / shape.sum()
-    lines[0] *= 0.5
-    if len(values) % 2 == 0:
-        lines[-1] *= 0.5
-    return np.fft.rfftfreq(len(values), step), lines
+    frequency, power = scipy.signal.periodogram(values, 1.0 / spacing(positions), window(taper, len(values)), scaling="spectrum")
+    once = (frequency == 0.0) | (frequency > 0.499999 / spacing(positions))  # lines that have no twin of negative frequency
+    return frequency, np.sqrt(np.where(once, 1.0, 2.0) * power)
 
 
 def harmonic(positions: ArrayLike, values: ArrayLike, frequency: float) -> tuple[float, float]:

@@ -22,7 +22,7 @@ from .fmu import Fmu, Refused
 from .own import OwnClass
 from .report import figures, known
 from .scenario import SHORT, changed
-from .sweep_table import DRY, EXTENSION, OF_DRY, OVER_DRY, REASON, RESULTS, Table
+from .sweep_table import DRY, EXTENSION, OF_DRY, OVER_DRY, REASON, RESULTS, Table, shown
 from .sweep_table import columns_path, dry_path, unfinished, write_meanings, write_unfinished
 from .train import Stop, TrackEnds
 from .warn import Once, collected
@@ -260,6 +260,5 @@ def finished(client, missing, made, fmu, limit):
 def described(row):
     """A point in words."""
     keys = [key for key in row if key not in (*RESULTS, *OVER_DRY, REASON)]
-    text = lambda value: f"{value:g}" if isinstance(value, int | float) and not isinstance(value, bool) else str(value)
-    words = ", ".join(f"{key} {text(row[key])}" for key in keys)
+    words = ", ".join(f"{key} {shown(row[key])}" for key in keys)
     return ", ".join(filter(None, ["dry" if row.get(DRY) is True else "", words])) or "the scenario"

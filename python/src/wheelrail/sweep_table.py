@@ -40,6 +40,11 @@ def cell(value):
     return value if isinstance(value, str) else json.dumps(value) if isinstance(value, bool | list | tuple) else repr(value)
 
 
+def shown(value):
+    """A value as a person reads it."""
+    return f"{value:g}" if isinstance(value, int | float) and not isinstance(value, bool) else cell(value)
+
+
 def parsed(key, text):
     """The value of a swept key in a file."""
     field = field_of(key)
