@@ -52,8 +52,6 @@ def _netcdf(path, fmu):
         raise BadFile(f"{path}: {error}") from None
     except Exception as error:  # Whatever the libraries below say of a file that is damaged or something else.
         raise BadFile(f"{path}: is no NetCDF file that xarray reads ({first_line(error)})") from error
-    if "time" not in loaded.coords or loaded["time"].ndim != 1:
-        raise BadFile(f"{path}: has no dimension `time`; expected a record as wheelrail.records writes them")
     try:
         run = of_dataset(loaded)
     except BadFile as error:
