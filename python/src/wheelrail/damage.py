@@ -19,9 +19,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .files import BadFile
 from .output import write_rows
-from .records import load
+from .records import made_of
 from .units import in_si
 
 if TYPE_CHECKING:
@@ -207,12 +206,7 @@ def add_command(commands: Any) -> None:
 
 def run(options: Namespace) -> None:
     """Prints the report and writes peak temperature, martensite and hardness over the depth."""
-    try:
-        found = report(load(options.run))
-    except (NoDamage, ImportError) as error:
-        raise BadFile(f"{options.run}: {error}") from None
-    except ValueError as error:
-        raise BadFile(str(error)) from None
+    found = made_of(options.run, report)
     out = options.out or options.run.with_name(f"{options.run.stem}_damage.csv")
     columns = out.with_name(f"{out.stem}_columns.csv")
     rows = zip(found.depth, found.peak, found.martensite, found.hardness)

@@ -18,9 +18,9 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from .files import BadFile
-from .grid import NoPatch, patch
+from .grid import patch
 from .output import write
-from .records import load
+from .records import made_of
 
 if TYPE_CHECKING:
     import xarray
@@ -78,10 +78,5 @@ def run(options: Namespace) -> None:
     if options.run.suffix != ".nc":
         raise BadFile(f"{options.run}: expected a record, .nc")
     folder = options.out or options.run.with_suffix("")
-    try:
-        written = export(load(options.run), folder)
-    except (NoPatch, ImportError) as error:
-        raise BadFile(f"{options.run}: {error}") from None
-    except ValueError as error:
-        raise BadFile(str(error)) from None
+    written = made_of(options.run, lambda run: export(run, folder))
     print(f"written: {written}, to be opened in ParaView")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from fnmatch import fnmatchcase
 from io import BytesIO
 from math import isclose
@@ -21,6 +21,7 @@ from . import output
 from .instances import BUFFERS
 from .opened import Instance
 from .origin import settings
+from .tables import BadFile
 from .values import Refused, first_line, kind, short
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     import xarray
 
 
-Record = TypeVar("Record")  # a Dataset or a DataArray
+Record, Made = TypeVar("Record"), TypeVar("Made")  # a Dataset or a DataArray; anything
 
 # Profiles over the depth below the surface; all others lie across the contact patch.
 BELOW = (
@@ -265,6 +266,14 @@ def of_netcdf(path: str | Path) -> xarray.Dataset:
     """The Dataset of a file whose spans of time are such; numbers of seconds stay numbers."""
     library("h5netcdf")
     return library("xarray").load_dataset(path, engine="h5netcdf")
+
+
+def made_of(path: str | Path, function: Callable[[xarray.Dataset], Made]) -> Made:
+    """What a function makes of the record in a file; what is wrong with one of them is refused with the path."""
+    try:
+        return function(load(path))
+    except (ImportError, ValueError) as error:
+        raise BadFile(str(error) if str(path) in str(error) else f"{path}: {error}") from None
 
 
 def _kind_of_file(path):
