@@ -3,14 +3,13 @@
 Results are CSV files with a header, such as `wheelrail simulate --out run.csv` writes; profiles of rail and wheel as well.
 """
 
-import csv
 import difflib
 from pathlib import Path
 
 import numpy as np
 
-from . import report, signals, surfaces, units
-from .output import fresh, write_rows
+from . import signals, surfaces, units
+from .output import beside, fresh, write_columns, write_rows
 from .page.units import guessed
 from .tables import BadFile, headings_of, number_in, read_table
 from .units import UnitError, converted, headed, named
@@ -72,8 +71,8 @@ def run(options):
     print("\n".join(lines))
     table, picture = options.out / f"{name}.csv", options.out / f"{name}.png"
     write_rows(table, [header, *([f"{value:.9g}" for value in row] for row in rows)])
-    columns = table.with_name(f"{name}_columns.csv")
-    report.write_columns(columns, [(column, *told(column, options)) for column in header])
+    columns = beside(table, "columns")
+    write_columns(columns, [(column, *told(column, options)) for column in header])
     save(picture, draw)
     print(f"written: {table}, {columns}, {picture}")
 

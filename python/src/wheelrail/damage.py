@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .output import write_rows
+from .output import beside, write_columns, write_rows
 from .records import made_of
 from .units import in_si
 
@@ -207,13 +207,13 @@ def add_command(commands: Any) -> None:
 def run(options: Namespace) -> None:
     """Prints the report and writes peak temperature, martensite and hardness over the depth."""
     found = made_of(options.run, report)
-    out = options.out or options.run.with_name(f"{options.run.stem}_damage.csv")
-    columns = out.with_name(f"{out.stem}_columns.csv")
+    out = options.out or beside(options.run, "damage")
+    columns = beside(out, "columns")
     rows = zip(found.depth, found.peak, found.martensite, found.hardness)
     text = lambda v: "" if np.isnan(v) else f"{v:.9g}"
     write_rows(out, [("depth", "peak_temperature", "martensite", "hardness"), *([text(v) for v in row] for row in rows)])
-    write_rows(columns, [
-        ("column", "unit", "description"), ("depth", "m", "below the tread"), ("peak_temperature", "K", "highest so far at that depth"),
+    write_columns(columns, [
+        ("depth", "m", "below the tread"), ("peak_temperature", "K", "highest so far at that depth"),
         ("martensite", "1", "largest share that there is at the end"),
         ("hardness", "HV", "of that share and of the steel as it was; empty where it is not known before the steel is cold"),
     ])  # fmt: skip

@@ -5,7 +5,7 @@ from itertools import groupby
 
 import numpy as np
 
-from .output import write_rows
+from .output import write_columns, write_rows
 from .train import AT_REST, AXLES, COUPLER, OF_AXLE, OF_VEHICLE, columns
 
 MOVING = 1.0  # m/s: slide is a ratio of speeds, it is taken above this one
@@ -149,11 +149,6 @@ def write_csv(path, table):
             names[k] = f"{IN_CELSIUS[kind][0]}_{axle}"
             values[:, k] = np.where(values[:, k] > 0.0, values[:, k] - CELSIUS, np.nan)
     write_rows(path, [names, *([f"{value:.9g}" for value in row] for row in values)])
-
-
-def write_columns(path, rows):
-    """Writes what the columns of other files are: name, unit, description."""
-    write_rows(path, [("column", "unit", "description"), *rows])
 
 
 def described(table):

@@ -19,11 +19,12 @@ from types import SimpleNamespace
 from .controllers import ControllerFailed
 from .files import BadFile
 from .fmu import Fmu, Refused
+from .output import beside
 from .own import OwnClass
 from .report import figures, known
 from .scenario import SHORT, changed
 from .sweep_table import DRY, EXTENSION, OF_DRY, OVER_DRY, REASON, RESULTS, Table, shown
-from .sweep_table import columns_path, dry_path, unfinished, write_meanings, write_unfinished
+from .sweep_table import write_meanings, write_unfinished
 from .train import Stop, TrackEnds
 from .warn import Once, collected
 
@@ -181,7 +182,7 @@ class Files:
     def __init__(self, scenario, rigid, path):
         self.path, self.name = Path(path), fingerprint(scenario, rigid)
         self.stops = Table(self.path, self.name, lists(scenario), [*RESULTS, *OVER_DRY])
-        self.dry = Table(dry_path(self.path), self.name, references(scenario)[0], OF_DRY)
+        self.dry = Table(beside(self.path, "dry"), self.name, references(scenario)[0], OF_DRY)
 
     def missing(self, scenario):
         """What is to be computed, dry stops first: (dry, point)."""
@@ -214,7 +215,7 @@ def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
     if fmu is not None:
         client.register_plugin(UploadFile(str(fmu)))
         fmu = Path(fmu).name
-    write_meanings(columns_path(files.path), files.stops.keys)
+    write_meanings(beside(files.path, "columns"), files.stops.keys)
     for (dry, point), found in finished(client, missing, made, fmu, limit):
         texts = found.pop(TOLD, ())
         row = point | ({DRY: True} if dry else {}) | found
@@ -228,7 +229,7 @@ def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
         for text in texts:
             once.warn(text, f"{described(row)}, ")
     files.fill()
-    write_unfinished(unfinished(files.path), files.name, [*files.stops.keys, DRY], failed)
+    write_unfinished(beside(files.path, "unfinished"), files.name, [*files.stops.keys, DRY], failed)
     return files.stops.rows, failed
 
 

@@ -9,8 +9,7 @@ import os
 from io import StringIO
 
 from .files import BadFile, Flag, Real, Several
-from .output import append, write_rows
-from .report import write_columns
+from .output import append, write_columns, write_rows
 from .scenario import field_of
 
 SCENARIO = "scenario"
@@ -106,21 +105,6 @@ class Table:
             return [{k: parsed(k, row[k]) for k in self.keys} | {k: float(row[k]) for k in self.results} for row in rows]
         except (ValueError, TypeError) as error:
             raise BadFile(f"{self.path}: a row cannot be read: {error}{other}") from None
-
-
-def unfinished(path):
-    """Where stops without results are named: beside the results."""
-    return path.with_name(f"{path.stem}_unfinished.csv")
-
-
-def dry_path(path):
-    """Where the dry stops are: beside the results."""
-    return path.with_name(f"{path.stem}_dry.csv")
-
-
-def columns_path(path):
-    """Where the columns are explained: beside the results."""
-    return path.with_name(f"{path.stem}_columns.csv")
 
 
 def write_unfinished(path, name, keys, failed):
