@@ -83,7 +83,7 @@ def test_what_is_usual_is_not(folder, row):
 
 REFUSED = [
     ("low_adhesion.json", "speed", 100, "if 100 km/h are meant, write 27.7778"),
-    ("low_adhesion.json", "track.slope", 12, "if 12 per mille are meant, write 0.012"),
+    ("low_adhesion.json", "track.slope", 12, "if 12 ‰ are meant, write 0.012"),
     ("low_adhesion.json", "vehicle.body.mass", 32, "if 32 t are meant, write 32000"),
     ("low_adhesion.json", "brake.pressure", 3.8, "if 3.8 bar are meant, write 380000"),
     ("low_adhesion.json", "track.sand.friction", 20, "if 20 % are meant, write 0.2"),

@@ -55,7 +55,7 @@ def load_slowly():
 CASES = {
     "nothing changes while it loads, runs and closes": """
 import decimal, locale, logging, multiprocessing
-import xarray, h5netcdf
+import xarray, h5netcdf, scipy.interpolate  # which change filters of warnings
 MAIN = os.getpid()  # the number of the first thread, too
 
 def state():

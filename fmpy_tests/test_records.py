@@ -167,7 +167,7 @@ def test_the_page_does_what_it_says(packed, tmp_path, monkeypatch):
     place = {}
     for block in blocks:
         exec(compile(block, str(PAGE), "exec"), place)
-    assert len(blocks) == 9 and len(place["frame"]) == 51
+    assert len(blocks) == 8 and len(place["frame"]) == 51
     assert place["lines"]["line.pressure_max"].dims == ("time", "line")
     assert place["again"].identical(place["run"]) and Path("results/run.parquet").is_file()
     surface = place["again"]["profile.temperature_wheel"]

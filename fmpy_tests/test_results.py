@@ -77,7 +77,7 @@ def test_progress_is_a_line_for_ten_per_cent_in_a_log_and_a_bar_on_a_terminal():
                 bar.advance(1.0, "axle")
     lines = log.getvalue().splitlines()
     assert [int(line[9:12]) for line in lines] == list(range(10, 101, 10))
-    assert lines[0].startswith("braking:  10 %, 0:00 so far, 0:00 left; axle") and "\r" not in log.getvalue()
+    assert lines[0].startswith("braking:  10 %, 00:00 so far, 00:00 left; axle") and "\r" not in log.getvalue()
     assert "\rbraking: " in terminal.getvalue() and "|" in terminal.getvalue()
     log = io.StringIO()
     with Progress(10.0, "stops", initial=5.5, file=log) as bar:

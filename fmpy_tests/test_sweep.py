@@ -18,6 +18,7 @@ import pytest
 
 from wheelrail import scenario, sweep, sweep_table
 from wheelrail.files import BadFile
+from wheelrail.output import beside
 from wheelrail.plots_sweep import draw_sweep
 
 TRAIN = Path(__file__).parent.parent / "examples" / "train"
@@ -51,7 +52,7 @@ def test_64_stops_survive_the_death_of_a_worker_and_are_not_computed_again(many,
             killed.set()
 
     rows, failed = sweep.sweep(client, many, None, tmp_path / "sweep.csv", kill)
-    assert failed == [] and not sweep_table.unfinished(tmp_path / "sweep.csv").exists()
+    assert failed == [] and not beside(tmp_path / "sweep.csv", "unfinished").exists()
     assert killed.is_set() and len(rows) == len(sweep.points(many)) == 64 and len(sweep.references(many)) == 8
     keys = [tuple(row[key] for key in sweep.lists(many)) for row in rows]
     assert len(set(keys)) == 64
@@ -95,7 +96,7 @@ def test_stops_without_an_end_are_named_and_tried_again(many, client, tmp_path):
     many.longest = 3.5  # s: from 4 m/s it takes longer, on dry rail, too
     rows, failed = sweep.sweep(client, many, None, path)
     assert [row["speed"] for row in rows] == [1.0] and [row["speed"] for row in failed] == [4.0, 4.0]
-    dry, named = csv.DictReader(sweep_table.unfinished(path).read_text().splitlines())
+    dry, named = csv.DictReader(beside(path, "unfinished").read_text().splitlines())
     assert named["speed"] == "4.0" and named["reason"].startswith("no standstill in 3.5 s: still ")
     assert dry["dry distance"] == "true" and dry["adhesion"] == ""
     assert {sweep.described(row) for row in failed} == {
@@ -108,7 +109,7 @@ def test_stops_without_an_end_are_named_and_tried_again(many, client, tmp_path):
     assert failed[0]["reason"].startswith("computed for more than 1e-09 s: at 0.01 s")
     many.longest = 240.0
     rows, failed = sweep.sweep(client, many, None, path)
-    assert len(rows) == 2 and failed == [] and not sweep_table.unfinished(path).exists()
+    assert len(rows) == 2 and failed == [] and not beside(path, "unfinished").exists()
 
 
 def test_an_extension_that_was_not_known_is_written_when_the_dry_stop_is_there(many, client, tmp_path):
@@ -121,7 +122,7 @@ def test_an_extension_that_was_not_known_is_written_when_the_dry_stop_is_there(m
     assert 0.0 < row["extension over dry"] < 20.0
     header, line = path.read_text().splitlines()
     path.write_text("\n".join([header, ",".join([*line.split(",")[:-2], "nan", "nan"])]) + "\n")
-    sweep_table.dry_path(path).unlink()
+    beside(path, "dry").unlink()
     again = []
     [filled], _ = sweep.sweep(client, many, None, path, again.append)
     assert len(again) == 1 and again[0]["dry distance"] is True and str(filled) == str(row)

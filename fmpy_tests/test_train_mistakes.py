@@ -131,9 +131,9 @@ MISTAKES = [
     module(GOOD.replace("speeds", "speed, valve, mass"),
         r"mine:P: step\(self, h, speed, valve, mass\) is not step\(h, speeds\): missing"),
     module("class P\n", r"mine.py:1: not Python: expected ':'"),
-    module(GOOD + "\nimport nowhere_at_all\n", r"importing mine failed: ModuleNotFoundError: .*nowhere_at_all.* \(mine.py:5\)"),
-    module("x = 1 / 0\n" + GOOD, r"importing mine failed: ZeroDivisionError: division by zero \(mine.py:1\)"),
-    module("raise SystemExit('enough')\n" + GOOD, r"importing mine failed: SystemExit: enough \(mine.py:1\)"),
+    module(GOOD + "\nimport nowhere_at_all\n", r"importing mine failed: ModuleNotFoundError: .*nowhere_at_all.* \(mine.py:5 in <module>: import nowhere_at_all\)"),
+    module("x = 1 / 0\n" + GOOD, r"importing mine failed: ZeroDivisionError: division by zero \(mine.py:1 in <module>: "),
+    module("raise SystemExit('enough')\n" + GOOD, r"importing mine failed: SystemExit: enough \(mine.py:1 in <module>: "),
     # Brake and track.
     wrong("disc_brake.json", re.compile(r'"sander": \{.*?\}'), '"sander": "mine:P"',
         "disc_brake.json:10: sander is 'mine:P', not an object"),

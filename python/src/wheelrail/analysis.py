@@ -3,16 +3,15 @@
 Results are CSV files with a header, such as `wheelrail simulate --out run.csv` writes; profiles of rail and wheel as well.
 """
 
-import csv
 import difflib
 from pathlib import Path
 
 import numpy as np
 
-from . import report, signals, surfaces, units
-from .output import fresh, write_rows
+from . import signals, surfaces, units
+from .output import beside, fresh, write_columns, write_rows
 from .page.units import guessed
-from .tables import BadFile, number_in, read_table
+from .tables import BadFile, headings_of, number_in, read_table
 from .units import UnitError, converted, headed, named
 
 FORCE = "contact.force_y"
@@ -72,8 +71,8 @@ def run(options):
     print("\n".join(lines))
     table, picture = options.out / f"{name}.csv", options.out / f"{name}.png"
     write_rows(table, [header, *([f"{value:.9g}" for value in row] for row in rows)])
-    columns = table.with_name(f"{name}_columns.csv")
-    report.write_columns(columns, [(column, *told(column, options)) for column in header])
+    columns = beside(table, "columns")
+    write_columns(columns, [(column, *told(column, options)) for column in header])
     save(picture, draw)
     print(f"written: {table}, {columns}, {picture}")
 
@@ -123,9 +122,8 @@ def save(path, draw):
 def _signal(options):
     """Column of time or position and column of values, from where they count."""
     if options.command == "octaves" and options.over == "time" and options.column == FORCE:
-        with open(options.file, encoding="utf-8-sig", errors="replace") as file:
-            if {"position", "height"} <= {headed(name)[0] for name in file.readline().split(",")}:
-                options.over, options.column = "position", "height"
+        if {"position", "height"} <= {headed(heading)[0] for heading in headings_of(options.file)}:
+            options.over, options.column = "position", "height"
     over, values = read_columns(options.file, (options.over, options.column))
     kept = over >= options.begin
     over, values = signals.checked(over[kept], values[kept])
@@ -141,7 +139,8 @@ def _force(options):
     lines = [f"{options.column} over {time[-1] - time[0]:.4g} s, {len(time)} samples", ""]
     words = {"deviation": "standard deviation", "least": "smallest", "at_zero": "share of time at or below zero"}
     lines += [f"{words.get(name, name):32s} {value:14.6g}" for name, value in vars(found).items()]
-    lines += [f"{f'not exceeded {100 * q:g} % of the time':32s} {_quantile(levels, above, q):14.6g}" for q in SHARES]
+    level = lambda share: levels[min(int(np.searchsorted(-above, share - 1.0)), len(levels) - 1)]  # not exceeded for a share of the time
+    lines += [f"{f'not exceeded {100 * q:g} % of the time':32s} {level(q):14.6g}" for q in SHARES]
     rows = [(0.5 * (low + high), share, np.interp(0.5 * (low + high), levels, above)) for low, high, share in zip(edges, edges[1:], density)]
 
     def draw(axis):
@@ -153,11 +152,6 @@ def _force(options):
         other.grid(False)
 
     return "force", (options.column, "density", "exceedance"), rows, lines, draw
-
-
-def _quantile(levels, above, share):
-    """Level that is not exceeded for a share of the time."""
-    return levels[min(int(np.searchsorted(-above, share - 1.0)), len(levels) - 1)]
 
 
 def _spectrum(options):

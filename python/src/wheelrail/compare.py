@@ -7,7 +7,7 @@ import queue
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import ExitStack, nullcontext
+from contextlib import ExitStack, closing, nullcontext
 from copy import deepcopy
 from pathlib import Path
 from types import SimpleNamespace
@@ -45,11 +45,8 @@ def stop(name: str, scenario: SimpleNamespace, dry: float | None, path: Path | N
                 news.put((name, done))
 
         try:
-            run = Stop(scenario, fmu, dry)
-            try:
+            with closing(Stop(scenario, fmu, dry)) as run:
                 table = run.run(tell)
-            finally:
-                run.close()
         finally:
             if texts:
                 news.put((name, texts))

@@ -3,23 +3,10 @@
 import argparse
 import difflib
 import re
+from pathlib import Path
 from typing import NoReturn
 
 SHELLS = ("bash", "zsh", "fish")
-BASH = """_wheelrail() {{
-    local word="${{COMP_WORDS[COMP_CWORD]}}"
-    COMPREPLY=()
-    if [ "$COMP_CWORD" -eq 1 ]; then
-        COMPREPLY=($(compgen -W "{commands}" -- "$word"))
-        return
-    fi
-    case "${{COMP_WORDS[1]}}" in
-{cases}
-    esac
-}}
-complete -o default -F _wheelrail wheelrail
-"""
-CASE = """        {command}) COMPREPLY=($(compgen -W "{words}" -- "$word")) ;;"""
 
 
 class Parser(argparse.ArgumentParser):
@@ -52,38 +39,29 @@ def _called(action: argparse.Action) -> str:
     return "/".join(action.option_strings) or str(action.metavar or action.dest)
 
 
+def _commands(parser):
+    """The parser of each command; the whole one is that of ``."""
+    subparsers = next(action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
+    return {"": parser} | subparsers.choices
+
+
 def options_of(parser: argparse.ArgumentParser) -> dict[str, list[str]]:
     """Words that may follow each command: its options, and the choices of its arguments. The parser's own are those of ``."""
-    commands = {"": parser}
-    for action in parser._actions:
-        if isinstance(action, argparse._SubParsersAction):
-            commands |= action.choices
-    return {name: _words(command) for name, command in commands.items()}
-
-
-def _words(parser: argparse.ArgumentParser) -> list[str]:
-    """Options of a parser and choices of its positional arguments."""
-    words = []
-    for action in parser._actions:
-        if isinstance(action, argparse._SubParsersAction):
-            continue
-        words += action.option_strings or [str(choice) for choice in action.choices or ()]
-    return words
+    words = lambda action: action.option_strings or [str(choice) for choice in action.choices or ()]
+    plain = lambda command: (action for action in command._actions if not isinstance(action, argparse._SubParsersAction))
+    return {name: [word for action in plain(command) for word in words(action)] for name, command in _commands(parser).items()}
 
 
 def script(parser: argparse.ArgumentParser, shell: str) -> str:
-    """The text that a shell reads to complete `wheelrail`: bash and zsh by one function, fish by a line for each word."""
-    options = options_of(parser)
-    own = options.pop("")
-    if shell == "fish":
-        lines = [f"complete -c wheelrail -n __fish_use_subcommand -a {command}" for command in options]
-        for command, words in options.items():
-            seen = f"complete -c wheelrail -n '__fish_seen_subcommand_from {command}'"
-            lines += [f"{seen} -l {word[2:]}" if word.startswith("--") else f"{seen} -a {word}" for word in words if word != "-h"]
-        return "\n".join(lines) + "\n"
-    cases = "\n".join(CASE.format(command=command, words=" ".join(words)) for command, words in options.items())
-    text = BASH.format(commands=" ".join([*options, *own]), cases=cases)
-    return text if shell == "bash" else f"autoload -U +X bashcompinit && bashcompinit\n{text}"
+    """The text that a shell reads to complete `wheelrail`."""
+    import shtab
+
+    for command in _commands(parser).values():
+        for action in command._actions:
+            if action.type is Path:
+                action.complete = shtab.FILE
+    parser.prog = "wheelrail"
+    return shtab.complete(parser, shell) + "\n"
 
 
 def add_command(commands: argparse._SubParsersAction) -> None:

@@ -10,9 +10,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 
 from .profile_files import Profile
-from .smooth import Spline, between
+from .smooth import Spline
 
 STEP = 2e-5  # m, between places of a profile
 BELOW_TOP = 0.014  # m, at which the gauge is measured (EN 13848-1)
@@ -109,9 +110,9 @@ class Side:
         near = np.flatnonzero((self.rail > u[0]) & (self.rail < u[-1]))
         near = near[np.abs(self.along[near] - np.interp(touch, self.rail, self.along)) < REACH]
         rail, rail_z, angle = self.rail[near], self.rail_z[near], self.angle[near]
-        height, at = np.zeros(len(near)), rail
+        height, at, surface = np.zeros(len(near)), rail, scipy.interpolate.CubicHermiteSpline(u, z, np.gradient(z, u))
         for _ in range(8):  # Newton: the wheel's slope is about that of the rail
-            height += np.cos(angle) * (between(at, u, z) - rail_z - height * np.cos(angle))
+            height += np.cos(angle) * (surface(at) - rail_z - height * np.cos(angle))
             at = np.clip(rail - height * np.sin(angle), u[0], u[-1])
         wheel = np.interp(at, u, self.u[use])
         return Gap(self.along[near], height, np.interp(at, u, ahead), np.interp(at, u, curvature), angle, rail, wheel, int(np.argmin(height)))
@@ -127,21 +128,9 @@ class Track:
         self.side = Side(wheel, rail, radius, half_spacing, 0.5 * gauge - float(face))
 
     def roll(self, shift: float, yaw: float = 0.0) -> float:
-        """Roll [rad] of a wheelset that rests on both rails, by the rule of false position."""
+        """Roll [rad] of a wheelset that rests on both rails."""
         difference = lambda roll: self.side.lowest(Pose(shift, roll, yaw))[0] - self.side.lowest(Pose(-shift, -roll, -yaw))[0]
-        a, b = -0.04, 0.04
-        f, g = difference(a), difference(b)
-        for _ in range(60):
-            middle = (a * g - b * f) / (g - f)
-            h = difference(middle)
-            if abs(h) < 1e-10 or abs(b - a) < 1e-12:
-                return middle
-            if h * g < 0.0:
-                a, f = b, g
-            else:
-                f *= 0.5
-            b, g = middle, h
-        return middle
+        return scipy.optimize.brentq(difference, -0.04, 0.04)
 
     def pose(self, shift: float, yaw: float = 0.0) -> Pose:
         """Pose, seen from the right wheel, of a wheelset that rests on both rails."""
@@ -165,7 +154,7 @@ def conicity(
     = 0` (EN 15302). `difference` [m] is that of the radii at ascending shifts [m]. Not a number where a motion does not fit in between."""
     y = np.linspace(shifts[0], shifts[-1], 8001)
     force = np.interp(y, shifts, difference)
-    energy = np.concatenate([[0.0], np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(y))])
+    energy = scipy.integrate.cumulative_trapezoid(force, y, initial=0.0)
     bottom = y[np.argmin(energy)]
     turn = np.pi * (np.arange(2000) + 0.5) / 2000
     found = []

@@ -10,10 +10,10 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 
 from .contact_geometry import EndOfProfile, Gap, Pose, Side, Track, conicity
 from .half_space import Pressed, Tiles
-from .smooth import between
 
 COARSE, FINE = (24, 96), (48, 240)  # tiles along the track and across
 FADING = 1e-3  # m of shift within which the rows of a place of contact grow that is about to appear or has vanished
@@ -86,7 +86,8 @@ def _pressed(gap: Gap, part, ends, count, load, modulus) -> tuple[np.ndarray, np
     ahead, along = (first + size * (np.arange(number) + 0.5) for first, size, number in zip(begin, step, count))
     at = lambda values: np.interp(along, gap.along, values)
     away = ahead[:, None] - at(gap.ahead) + gap.ahead[gap.touch]
-    height = between(along, gap.along, gap.height) + 0.5 * at(gap.curvature) * away**2
+    curve = scipy.interpolate.CubicHermiteSpline(gap.along, gap.height, np.gradient(gap.height, gap.along))
+    height = curve(along) + 0.5 * at(gap.curvature) * away**2
     return ahead, along, Tiles(count, step, modulus).press(height, np.cos(at(gap.angle)), load)
 
 

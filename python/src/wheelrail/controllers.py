@@ -7,12 +7,10 @@ not inherit anything. What it raises, or returns wrongly, ends the stop with its
 
 import math
 import numbers
-import traceback
 from enum import Enum
-from pathlib import Path
 from typing import Protocol
 
-from .own import OwnClass
+from .own import OwnClass, place
 from .values import short
 
 MOST_SAND = 1.0  # kg/s
@@ -99,16 +97,6 @@ class Guard:
         if not low <= value <= high:
             self.refuse(f"step returned {what} = {float(value):g}, outside {low:g} to {high:g}")
         return float(value)
-
-
-def place(error):
-    """Where an error was raised: the last line outside of this package, as `file:line in function: text`."""
-    own = Path(__file__).parent
-    frames = [f for f in traceback.extract_tb(error.__traceback__) if Path(f.filename).parent != own]
-    if not frames:
-        return "in the call itself"
-    last = frames[-1]
-    return f"{Path(last.filename).name}:{last.lineno} in {last.name}" + (f": {last.line}" if last.line else "")
 
 
 class OwnProtection(Guard):

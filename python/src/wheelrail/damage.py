@@ -19,9 +19,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .files import BadFile
-from .output import write_rows
-from .records import load
+from .output import beside, write_columns, write_rows
+from .records import made_of
 from .units import in_si
 
 if TYPE_CHECKING:
@@ -141,7 +140,8 @@ def report(run: xarray.Dataset, *, steel: Mapping[str, float] = STEEL, base: flo
     whole = {name: int(last.pop(name)) for name in ("flats", "hot_places")}
     numbers = {name: float(value) for name, value in last.items() if name not in ("peak_temperature", "hottest_point")}
     # While the point that was hottest longest is above 500 degC, steel that is cold has cooled at least as fast as martensite needs.
-    rate = numbers["cooling_rate"] or _parameter(run, "damage.critical_cooling", 50.0)
+    given = json.loads(run.attrs.get("parameters", "{}"))
+    rate = numbers["cooling_rate"] or float(given.get("damage.critical_cooling", 50.0))
     hard = hardness(martensite, rate, steel, base)
     if whole["hot_places"]:
         hard[(run["depth"].values <= numbers["ac1_depth"]) & (martensite == 0.0)] = np.nan
@@ -163,11 +163,6 @@ def hardness(martensite: np.ndarray, cooling_rate: float, steel: Mapping[str, fl
     quenched += 21.0 * np.log10(max(3600.0 * cooling_rate, 1.0))
     share = np.clip(martensite, 0.0, 1.0)
     return share * quenched + (1.0 - share) * base
-
-
-def _parameter(run: xarray.Dataset, name: str, default: float) -> float:
-    """A parameter of the run."""
-    return float(json.loads(run.attrs.get("parameters", "{}")).get(name, default))
 
 
 def settle(wheel: Wheel, *, step: float = 5e-3, longest: float = 120.0, progress: bool = True) -> float:
@@ -211,19 +206,14 @@ def add_command(commands: Any) -> None:
 
 def run(options: Namespace) -> None:
     """Prints the report and writes peak temperature, martensite and hardness over the depth."""
-    try:
-        found = report(load(options.run))
-    except (NoDamage, ImportError) as error:
-        raise BadFile(f"{options.run}: {error}") from None
-    except ValueError as error:
-        raise BadFile(str(error)) from None
-    out = options.out or options.run.with_name(f"{options.run.stem}_damage.csv")
-    columns = out.with_name(f"{out.stem}_columns.csv")
+    found = made_of(options.run, report)
+    out = options.out or beside(options.run, "damage")
+    columns = beside(out, "columns")
     rows = zip(found.depth, found.peak, found.martensite, found.hardness)
     text = lambda v: "" if np.isnan(v) else f"{v:.9g}"
     write_rows(out, [("depth", "peak_temperature", "martensite", "hardness"), *([text(v) for v in row] for row in rows)])
-    write_rows(columns, [
-        ("column", "unit", "description"), ("depth", "m", "below the tread"), ("peak_temperature", "K", "highest so far at that depth"),
+    write_columns(columns, [
+        ("depth", "m", "below the tread"), ("peak_temperature", "K", "highest so far at that depth"),
         ("martensite", "1", "largest share that there is at the end"),
         ("hardness", "HV", "of that share and of the steel as it was; empty where it is not known before the steel is cold"),
     ])  # fmt: skip

@@ -11,10 +11,11 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from .tables import BadFile, number_in, read_table, text_of
-from .units import UnitError, converted, headed, named
+from .units import UnitError, converted, headed, named, unit_of
 from .warn import warn
 
 FAR = 10.0  # times its usual size a value is doubtful
+REFERENCE = 293.15  # K: of excess temperatures, unless thermal.reference is set
 SMALL = 100.0  # and by this factor below it, where another unit would make it usual
 
 
@@ -22,8 +23,8 @@ SMALL = 100.0  # and by this factor below it, where another unit would make it u
 class Real:
     """A number from `low` to `high`. Without a `default` it must be given, unless it is `optional`: then it may be None.
 
-    `usual` is its usual size, and `others` are units in which it may be meant by mistake: name, factor, and what is added in the
-    unit of the field, such as `("km/h", 1 / 3.6, 0.0)`. A value far from its usual size is doubted. A `relative` one is a difference.
+    `usual` is its usual size, and `others` are units in which it may be meant by mistake. A value far from its usual size is doubted. A
+    `relative` one is a difference, and may be meant as a temperature.
     """
 
     low: float
@@ -61,10 +62,9 @@ class Real:
 
     def _meant(self, value):
         """Words about the units in which a value would be allowed, and usual if that is known."""
-        texts = []
-        for name, factor, zero in self.others:
-            meant = value * factor + zero
-            near = self.usual is None or zero or self.usual / FAR <= abs(meant) <= FAR * self.usual
+        texts, found = [], {name: unit_of(name).to_si(value) for name in self.others}
+        for name, meant in (found | ({"K absolute": value - REFERENCE} if self.relative else {})).items():
+            near = self.usual is None or self.relative or self.usual / FAR <= abs(meant) <= FAR * self.usual
             if near and self.low <= meant <= self.high:
                 texts.append(f"; if {value:g} {name} {'are' if name else 'is'} meant, write {meant:.6g}")
         return "".join(texts)

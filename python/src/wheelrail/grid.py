@@ -19,6 +19,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+import scipy
 
 from .records import library
 from .units import in_si
@@ -108,17 +109,16 @@ def laid(
     array (place, 2) [m], which are equal where nothing touches.
     """
     shapes = [_shape({name: values[k] for name, values in lines.items()}, nodes, half[k]) for k in range(len(position))]
+    found = {name: np.full((len(z), len(x)), np.nan if name.startswith("temperature") else 0.0) for name in lines}
+    found["state"] = np.zeros((len(z), len(x)))
     if not any(shape["half"] > 0.0 for shape in shapes):
-        return _nothing(lines, len(z), len(x)) | ({} if rim is None else {"rim": np.zeros((len(rim), 2))})
+        return found | ({} if rim is None else {"rim": np.zeros((len(rim), 2))})
     # What is quadratic across the patch.
     of = lambda name: np.array([shape[name] for shape in shapes])
     length, peak = (_rooted(position, of(name), side, z) for name in ("half", "peak"))
     middle = _between(position, of("middle")[:, None], z)[:, 0]
     mixed = {name: _between(position, np.array([shape[name] for shape in shapes]), z) for name in shapes[0] if name not in ("half", "peak", "middle")}
-    inside = (z >= side[0]) & (z <= side[1])
-    found = {name: np.full((len(z), len(x)), np.nan if name.startswith("temperature") else 0.0) for name in lines}
-    found["state"] = np.zeros((len(z), len(x)))
-    for row in np.flatnonzero(inside):
+    for row in np.flatnonzero((z >= side[0]) & (z <= side[1])):
         _fill(found, row, x - middle[row], length[row], peak[row], {name: values[row] for name, values in mixed.items()})
     if rim is not None:
         reach = np.where((rim >= side[0]) & (rim <= side[1]), _rooted(position, of("half"), side, rim), 0.0)
@@ -221,40 +221,15 @@ def _between(position: np.ndarray, values: np.ndarray, z: np.ndarray) -> np.ndar
     """Values of lines, (line, place), at other lateral positions: linear between lines, those of the outermost ones beyond."""
     if len(position) == 1:
         return np.repeat(values, len(z), axis=0)
-    k = np.clip(np.searchsorted(position, z) - 1, 0, len(position) - 2)
-    share = np.clip((z - position[k]) / (position[k + 1] - position[k]), 0.0, 1.0)[:, None]
-    return values[k] + share * (values[k + 1] - values[k])
+    return scipy.interpolate.make_interp_spline(position, values, k=1)(np.clip(z, position[0], position[-1]))
 
 
 def _rooted(position: np.ndarray, values: np.ndarray, side: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Roots of squares that are quadratic over three neighbouring lines, zero at both sides; a single line has its own value."""
     if len(position) == 1:
         return np.full(len(z), values[0])
-    places, squares = np.concatenate([[side[0]], position, [side[1]]]), np.concatenate([[0.0], values**2, [0.0]])
-    found = np.zeros(len(z))
-    for j, at in enumerate(z):
-        if side[0] < at < side[1]:
-            right = int(np.clip(np.searchsorted(places, at), 1, len(places) - 1))
-            # The parabolas through both triples that contain the interval, mixed linearly within it.
-            triples = [k for k in (right - 2, right - 1) if 0 <= k <= len(places) - 3]
-            share = (at - places[right - 1]) / (places[right] - places[right - 1])
-            values_there = [_parabola(places[k : k + 3], squares[k : k + 3], at) for k in triples]
-            weights = [1.0] if len(triples) == 1 else [1.0 - share, share]
-            found[j] = max(float(np.dot(weights, values_there)), 0.0)
-    return np.sqrt(found)
-
-
-def _parabola(x: np.ndarray, y: np.ndarray, at: float) -> float:
-    """Value of the parabola through three points."""
-    a, b, c = x
-    return (
-        y[0] * (at - b) * (at - c) / ((a - b) * (a - c))
-        + y[1] * (at - a) * (at - c) / ((b - a) * (b - c))
-        + y[2] * (at - a) * (at - b) / ((c - a) * (c - b))
-    )
-
-
-def _nothing(lines: dict[str, np.ndarray], rows: int, columns: int) -> dict[str, np.ndarray]:
-    """A grid without contact."""
-    found = {name: np.full((rows, columns), np.nan if name.startswith("temperature") else 0.0) for name in lines}
-    return found | {"state": np.zeros((rows, columns))}
+    places, kept = np.unique(np.concatenate([[side[0]], position, [side[1]]]), return_index=True)
+    squares = np.concatenate([[0.0], values**2, [0.0]])[kept]
+    # The parabolas through both triples that contain an interval, mixed linearly within it, are the cubic with their slopes.
+    curve = scipy.interpolate.CubicHermiteSpline(places, squares, np.gradient(squares, places, edge_order=2))
+    return np.sqrt(np.where((z > side[0]) & (z < side[1]), np.maximum(curve(z), 0.0), 0.0))

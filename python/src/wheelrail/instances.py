@@ -227,9 +227,6 @@ class Functions3(Owner):
 
         return read
 
-    def getFMUstate(self):
-        return self.getFMUState()
-
     def setFMUstate(self, state):
         rates, self._rates = self._rates, {}
         try:
@@ -237,15 +234,6 @@ class Functions3(Owner):
         except Exception:
             self._rates = rates
             raise
-
-    def freeFMUstate(self, state):
-        self.freeFMUState(state)
-
-    def serializeFMUstate(self, state):
-        return self.serializeFMUState(state)
-
-    def deSerializeFMUstate(self, serializedState):
-        return self.deserializeFMUState(serializedState)
 
 
 FUNCTIONS = {"Enumeration": "Int64"}  # of a type, where its name is another
@@ -260,6 +248,7 @@ def loaded(fmu, name, calls):
         pass
 
     class FMU3Instance(Functions3, fmi3.FMU3Slave):
-        pass
+        getFMUstate, freeFMUstate = fmi3.FMU3Slave.getFMUState, fmi3.FMU3Slave.freeFMUState
+        serializeFMUstate, deSerializeFMUstate = fmi3.FMU3Slave.serializeFMUState, fmi3.FMU3Slave.deserializeFMUState
 
     return (FMU3Instance if fmu.places else FMU2Instance)(fmu, name, calls)

@@ -21,10 +21,9 @@ class MultibodyCoach:
 
         self.exudyn, self.items = exudyn, itemInterface
         self.values = values
-        self.axle_positions, self.count, self.axles = Coach(values).axle_positions, 1, AXLES
-        self.body_mass = values.body.mass + values.body.payload
-        self.mass = self.body_mass + 2 * values.bogie.mass + AXLES * values.wheelset.mass
-        self.static_load = self.mass * GRAVITY / AXLES
+        plain = Coach(values)
+        self.axle_positions, self.count, self.axles = plain.axle_positions, 1, AXLES
+        self.body_mass, self.mass, self.static_load = plain.body_mass, plain.mass, plain.static_load
         self.settings = exudyn.SimulationSettings()
         self.settings.solution.file.write = False
         self.settings.timeIntegration.verboseMode = 0

@@ -22,7 +22,7 @@ from .folder import TemporaryFolder
 from .instances import loaded, scalars
 from .times import after
 from .units import named
-from .values import Refused, Unique, check_names, kind, plain, saved_state, short, to_fmu
+from .values import Refused, Unique, check_names, first_line, kind, plain, saved_state, short, to_fmu
 
 ROUNDING = 1e-14  # relative difference of times that is rounding of one sum
 _numbers = count(1)
@@ -74,7 +74,7 @@ def _unpacked(path):
 
 def _no_fmu(path, failure):
     """The refusal of a file that is no FMU."""
-    return Refused(f"{path} is no FMU: {(str(failure).splitlines() or [type(failure).__name__])[0]}")
+    return Refused(f"{path} is no FMU: {first_line(failure)}")
 
 
 class Fmu(Unique):
@@ -242,7 +242,7 @@ class Instance(Unique):
         with self._calls, self._calls.lock:
             for variable, value in given:
                 if variable.type != "Real":
-                    self._calls(self._access("set", variable), [variable.valueReference], [value])
+                    self._calls(getattr(self.slave, "set" + kind(variable)), [variable.valueReference], [value])
             if reals:
                 self._calls(self.slave.setReal, *map(list, zip(*reals)))
 
@@ -350,9 +350,6 @@ class Instance(Unique):
     def forget(self, saved: tuple[object, float]) -> None:
         """Frees a saved state."""
         self._calls(self.slave.freeFMUstate, saved_state(saved)[0])
-
-    def _access(self, direction, variable):
-        return getattr(self.slave, direction + kind(variable))
 
 
 def instance(fmu: Fmu, name: str, call: Calls) -> Any:

@@ -16,7 +16,7 @@ import numpy as np
 from .fmu import Fmu, Wheel
 from .records import attributes, library
 from .units import UnitError, beside, converted, headed
-from .values import Refused, check_names, short
+from .values import Refused, check_names, number, short
 
 if TYPE_CHECKING:
     import xarray
@@ -115,11 +115,11 @@ def steady(
 
 def _speed(wheel: Wheel, velocity: float | None) -> float:
     """The velocity [m/s], which is none of standstill."""
-    speed, unit = beside(wheel.get("initial.velocity") if velocity is None else velocity)
-    speed = speed.item() if getattr(speed, "shape", None) == () else speed
-    if isinstance(speed, bool) or not isinstance(speed, (int, float, np.number)) or not np.isfinite(speed) or abs(speed) < 0.02:
-        raise ValueError(f"velocity = {short(speed)} is no velocity in m/s of a wheel that travels")
-    return float(converted("velocity", speed, unit, "m/s"))
+    given = wheel.get("initial.velocity") if velocity is None else velocity
+    speed = number("velocity", given, "m/s")
+    if speed is None or abs(speed) < 0.02:
+        raise ValueError(f"velocity = {short(given)} is no velocity in m/s of a wheel that travels")
+    return speed
 
 
 def _range(wheel: OperatingPoint, speed: float) -> np.ndarray:

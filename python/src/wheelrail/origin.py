@@ -10,7 +10,7 @@ def settings(wheel):
     parameters = [v for v in fmu.variables.values() if v.causality == "parameter"]
     values = {v.name: wheel.get(v.name) for v in parameters}
     preset = values.pop("preset", "")
-    base = {v.name: _start(v) for v in parameters} | _preset(fmu, preset)
+    base = preset_values(fmu, preset)
     # The package itself writes the first of these, so that everything counts that is written.
     base["initial.given"] = "written"
     named = {v.name: _choice(v, values[v.name]) for v in parameters if v.name in values}
@@ -33,8 +33,9 @@ def _start(variable):
     return float(text) if variable.type == "Real" else _choice(variable, text) if variable.type == "Enumeration" else int(text)
 
 
-def _preset(fmu, preset):
-    """What a preset sets besides the start values."""
+def preset_values(fmu, preset):
+    """Parameters of a preset by name, choices by theirs: start values, and what it sets besides."""
     path = Path(fmu.directory, "resources", f"{preset}.json")
     groups = json.loads(path.read_text()) if path.is_file() else {}
-    return {f"{group}.{name}": value for group, values in groups.items() for name, value in values.items()}
+    start = {v.name: _start(v) for v in fmu.variables.values() if v.causality == "parameter" and v.name != "preset"}
+    return start | {f"{group}.{name}": value for group, values in groups.items() for name, value in values.items()}

@@ -60,6 +60,16 @@ def write_rows(path: str | Path, rows: Iterable[Iterable[object]]) -> None:
         csv.writer(file).writerows(rows)
 
 
+def beside(path: Path, what: str) -> Path:
+    """The path of a CSV beside another one, such as run_columns.csv beside run.csv."""
+    return path.with_name(f"{path.stem}_{what}.csv")
+
+
+def write_columns(path: str | Path, rows: Iterable[Iterable[object]]) -> None:
+    """Writes what the columns of other files are: name, unit, description."""
+    write_rows(path, [("column", "unit", "description"), *rows])
+
+
 def append(path: Path, text: str) -> None:
     """Adds text to the end of a file, all of it or nothing."""
     size = path.stat().st_size if path.is_file() else None

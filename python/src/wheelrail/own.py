@@ -13,6 +13,7 @@ import importlib.util
 import inspect
 import re
 import sys
+import traceback
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -20,6 +21,7 @@ from importlib.machinery import SourceFileLoader
 from pathlib import Path
 
 from .files import BadFile
+from .warn import PACKAGE
 
 FORM = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 
@@ -105,7 +107,7 @@ def _check(found, protocol):
     except (Exception, SystemExit) as error:
         text = " ".join(f"{type(error).__name__}: {error}".split())
         module = found.name.partition(":")[0]
-        raise BadFile(f"{found.where}: importing {module} failed: {text}{_line(error, found.files)}") from None
+        raise BadFile(f"{found.where}: importing {module} failed: {text} ({place(error)})") from None
     wanted = [name for name in inspect.signature(protocol.step).parameters if name != "self"]
     call = f"step({', '.join(wanted)})"
     if not callable(getattr(own, "step", None)):
@@ -118,15 +120,13 @@ def _check(found, protocol):
         pass  # written in C: it has no signature
 
 
-def _line(error, files):
-    """Where in the files an error was raised."""
-    trace, own, place = error.__traceback__, [path for path, _ in files], ""
-    while trace:
-        path = trace.tb_frame.f_code.co_filename
-        if path in own:
-            place = f" ({Path(path).name}:{trace.tb_lineno})"
-        trace = trace.tb_next
-    return place
+def place(error):
+    """Where an error was raised: the last line outside of this package, as `file:line in function: text`."""
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if not f.filename.startswith((PACKAGE, "<frozen"))]
+    if not frames:
+        return "in the call itself"
+    last = frames[-1]
+    return f"{Path(last.filename).name}:{last.lineno} in {last.name}" + (f": {last.line}" if last.line else "")
 
 
 _modules = ContextVar("modules of one's own", default=None)

@@ -18,9 +18,9 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from .files import BadFile
-from .grid import NoPatch, patch
+from .grid import patch
 from .output import write
-from .records import load
+from .records import made_of
 
 if TYPE_CHECKING:
     import xarray
@@ -61,14 +61,9 @@ def export(run: xarray.Dataset, folder: str | Path, *, along: int = 81, across: 
     names = [f"patch_{k:05d}.vti" for k in range(grid.sizes["time"])]
     x, z = grid["x"].values, grid["z"].values
     for k, name in enumerate(names):
-        write(place / name, image({f"{key} [{_unit(grid[key])}]": grid[key].values[k] for key in grid.data_vars}, x, z))
+        write(place / name, image({f"{key} [{grid[key].attrs['units']}]": grid[key].values[k] for key in grid.data_vars}, x, z))
     write(place / "patch.pvd", index(grid["time"].values, names))
     return folder / "patch.pvd"
-
-
-def _unit(values: xarray.DataArray) -> str:
-    """Unit of a quantity."""
-    return values.attrs["units"]
 
 
 def add_command(commands: Any) -> None:
@@ -83,10 +78,5 @@ def run(options: Namespace) -> None:
     if options.run.suffix != ".nc":
         raise BadFile(f"{options.run}: expected a record, .nc")
     folder = options.out or options.run.with_suffix("")
-    try:
-        written = export(load(options.run), folder)
-    except (NoPatch, ImportError) as error:
-        raise BadFile(f"{options.run}: {error}") from None
-    except ValueError as error:
-        raise BadFile(str(error)) from None
+    written = made_of(options.run, lambda run: export(run, folder))
     print(f"written: {written}, to be opened in ParaView")

@@ -16,7 +16,7 @@ from . import profile_files
 from .contact_geometry import EndOfProfile, Track
 from .contact_patch import Over, conicities, over
 from .files import BadFile
-from .output import fresh, write_rows
+from .output import beside, fresh, write_columns
 from .progress import Progress
 
 COLUMNS = (
@@ -52,7 +52,7 @@ def write(path: Path, found: Over, count: int, words: str) -> None:
         for shift, patch in zip(found.shifts, found.rows(count)):
             for row in zip(*patch):
                 print(",".join(f"{value:.9g}" for value in (shift, *row)), file=file)
-    write_rows(path.with_name(f"{path.stem}_columns.csv"), [("column", "unit", "description"), *COLUMNS])
+    write_columns(beside(path, "columns"), COLUMNS)
 
 
 def jumps(found: Over, count: int) -> list[tuple[float, float]]:
@@ -138,4 +138,4 @@ def run(options: Namespace) -> None:
     words = f"{options.wheel.name} on {options.rail.name}, gauge {options.gauge:g} m, contact.rows_load = {options.load:g} N, wheel.radius = {options.radius:g} m"
     write(options.out, found, options.rows, words)
     draw(options.out.with_suffix(".png"), found, options.rows, amplitudes, known, words)
-    print(f"written: {options.out}, {options.out.stem}_columns.csv, {options.out.stem}.png")
+    print(f"written: {options.out}, {beside(options.out, 'columns').name}, {options.out.stem}.png")

@@ -8,6 +8,7 @@ import numpy as np
 from .plots import COLOURS, WIDTH, save, subplots
 from .scenario import field_of
 from .sweep_table import DRY, EXTENSION, cell
+from .sweep_table import shown as readable
 
 DISTANCE = "stopping distance"
 FIRST = ("speed", "adhesion")  # along the axes of a map, if they are swept
@@ -61,7 +62,7 @@ def shown(key, value):
     """A value of a key, for an axis."""
     if key == "speed":
         return f"{3.6 * value:.0f}"
-    return f"{value:g}" if isinstance(value, int | float) and not isinstance(value, bool) else cell(value)
+    return readable(value)
 
 
 def _curve(rows, key, values):

@@ -184,17 +184,9 @@ def inclined(profile: Profile, inclination: float, path: str | Path = "") -> Pro
     u, z = cosine * profile.u - sine * profile.z, sine * profile.u + cosine * profile.z
     part = _one_way(u)
     made = Profile(u[part], z[part] - np.max(z), profile.words)
-    lean = _lean(made)
-    if lean < -AWAY:
+    slope = lean(made)
+    if slope < -AWAY:
         advice = "exchange the signs of its positions, which go to the field side, or give --inclination"
-        raise BadFile(f"{path}: the rail is mirrored: its head leans away from the track by 1:{-1.0 / lean:.0f}; {advice}")
-    leans = f"leans to the track by about 1:{1.0 / lean:.0f}" if lean > AWAY else "upright; --inclination 1:40 would turn it"
+        raise BadFile(f"{path}: the rail is mirrored: its head leans away from the track by 1:{-1.0 / slope:.0f}; {advice}")
+    leans = f"leans to the track by about 1:{1.0 / slope:.0f}" if slope > AWAY else "upright; --inclination 1:40 would turn it"
     return made._replace(words=f"{made.words}; {leans}")
-
-
-def _lean(profile, depth=0.0141):
-    """Slope of the top of a rail between places about the middle of its sides at a depth [m], positive if it leans to the track."""
-    above = profile.u[profile.z > -depth]
-    middle, half = 0.5 * (above[0] + above[-1]), 0.15 * (above[-1] - above[0])
-    low, high = np.interp([middle - half, middle + half], profile.u, profile.z)
-    return float((high - low) / (2.0 * half))

@@ -57,9 +57,4 @@ class Progress:
         """Time so far, and what is left at this pace."""
         spent = time.monotonic() - self.began
         left = spent * (self.total - self.done) / max(self.done - self.initial, 1e-12)
-        return f"{clock(spent)} so far" + (f", {clock(left)} left" if self.done < self.total else "")
-
-
-def clock(seconds):
-    """Minutes and seconds."""
-    return f"{int(seconds) // 60}:{int(seconds) % 60:02d}"
+        return f"{tqdm.format_interval(spent)} so far" + (f", {tqdm.format_interval(left)} left" if self.done < self.total else "")

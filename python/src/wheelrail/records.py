@@ -5,10 +5,11 @@ from __future__ import annotations
 import importlib
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from fnmatch import fnmatchcase
 from io import BytesIO
 from math import isclose
+from operator import itemgetter
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, TypeVar
@@ -20,14 +21,15 @@ from . import output
 from .instances import BUFFERS
 from .opened import Instance
 from .origin import settings
-from .values import Refused, kind, short
+from .tables import BadFile
+from .values import Refused, first_line, kind, short
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
 
-Record = TypeVar("Record")  # a Dataset or a DataArray
+Record, Made = TypeVar("Record"), TypeVar("Made")  # a Dataset or a DataArray; anything
 
 # Profiles over the depth below the surface; all others lie across the contact patch.
 BELOW = (
@@ -75,14 +77,11 @@ class Recorder:
         self._inputs = inputs
         self._readers = [_reader(wheel, sort, variables) for sort in BUFFERS]
         self._readers = [reader for reader in self._readers if reader]
-        self._depths = wheel.profile("depth") if self._over_depth() else None
+        self._depths = wheel.profile("depth") if any(_place(name) == "depth" for name in self.arrays) else None
         self._settings = settings(wheel)
         self._warnings, self._heard = [], 0
         self._samples, self._steps = [], []  # (time, values); times
         self.sample()
-
-    def _over_depth(self):
-        return any(name.removeprefix("profile.") in BELOW for name in self.arrays)
 
     def stepped(self) -> None:
         """Takes note of a step, and a sample if it is its turn; of one that is known, nothing."""
@@ -105,12 +104,9 @@ class Recorder:
 
     def rewind(self, time: float) -> None:
         """Drops steps, samples and warnings from after a time [s]."""
-        while self._warnings and self._warnings[-1][0] > time:
-            self._warnings.pop()
-        while self._steps and self._steps[-1] > time:
-            self._steps.pop()
-        while self._samples and self._samples[-1][0] > time:
-            self._samples.pop()
+        for entries, at in ((self._warnings, itemgetter(0)), (self._steps, float), (self._samples, itemgetter(0))):
+            while entries and at(entries[-1]) > time:
+                entries.pop()
 
     def listen(self) -> None:
         """Takes note of new warnings and refusals, with the time that they name, or else that of the sample."""
@@ -253,18 +249,31 @@ def load(path: str | Path) -> xarray.Dataset:
     xarray = library("xarray")
     try:
         if path.suffix == ".nc":
-            library("h5netcdf")
-            return xarray.load_dataset(path, engine="h5netcdf")  # spans of time are such, numbers of seconds stay numbers
+            return of_netcdf(path)
         library("pyarrow")
         frame = library("pandas").read_parquet(path, engine="pyarrow")
     except (OSError, ValueError) as failure:
-        raise ValueError(f"{path} is no {path.suffix[1:]} file that can be read: {_first_line(failure)}") from failure
+        raise ValueError(f"{path} is no {path.suffix[1:]} file that can be read: {first_line(failure)}") from failure
     if "variables" not in frame.attrs or frame.index.name != "time":
         raise ValueError(f"{path} holds a table, but none that wheelrail.save has written")
     run = xarray.Dataset.from_dataframe(frame).assign_attrs(frame.attrs["run"])
     for name, text in frame.attrs["variables"].items():
         run[name].attrs = text
     return run
+
+
+def of_netcdf(path: str | Path) -> xarray.Dataset:
+    """The Dataset of a file whose spans of time are such; numbers of seconds stay numbers."""
+    library("h5netcdf")
+    return library("xarray").load_dataset(path, engine="h5netcdf")
+
+
+def made_of(path: str | Path, function: Callable[[xarray.Dataset], Made]) -> Made:
+    """What a function makes of the record in a file; what is wrong with one of them is refused with the path."""
+    try:
+        return function(load(path))
+    except (ImportError, ValueError) as error:
+        raise BadFile(str(error) if str(path) in str(error) else f"{path}: {error}") from None
 
 
 def _kind_of_file(path):
@@ -282,11 +291,6 @@ def _checked(run, call):
         expected = "expected the Dataset of a run, of simulate() or of a recorder's dataset()"
         raise ValueError(f"{call}({type(run).__name__}): {expected}")
     return run
-
-
-def _first_line(failure):
-    """The first line of what went wrong."""
-    return (str(failure).splitlines() or [type(failure).__name__])[0]
 
 
 def library(name: str) -> ModuleType:

@@ -1,10 +1,11 @@
 """Key figures of a stop in the manner of EN 15595: table of several stops side by side, and CSV."""
 
 import math
+from itertools import groupby
 
 import numpy as np
 
-from .output import write_rows
+from .output import write_columns, write_rows
 from .train import AT_REST, AXLES, COUPLER, OF_AXLE, OF_VEHICLE, columns
 
 MOVING = 1.0  # m/s: slide is a ratio of speeds, it is taken above this one
@@ -100,11 +101,7 @@ def known(values):
 
 def longest(flags):
     """Most flags in a row."""
-    best = now = 0
-    for flag in flags:
-        now = now + 1 if flag else 0
-        best = max(best, now)
-    return best
+    return max((len(list(run)) for flag, run in groupby(flags) if flag), default=0)
 
 
 def standing(table):
@@ -152,11 +149,6 @@ def write_csv(path, table):
             names[k] = f"{IN_CELSIUS[kind][0]}_{axle}"
             values[:, k] = np.where(values[:, k] > 0.0, values[:, k] - CELSIUS, np.nan)
     write_rows(path, [names, *([f"{value:.9g}" for value in row] for row in values)])
-
-
-def write_columns(path, rows):
-    """Writes what the columns of other files are: name, unit, description."""
-    write_rows(path, [("column", "unit", "description"), *rows])
 
 
 def described(table):

@@ -18,7 +18,7 @@ from . import operating, runs
 from .files import Real, Text, read_csv
 from .fmu import Fmu, default_path
 from .opened import fmu_file
-from .output import write, write_rows
+from .output import write, write_columns
 from .records import library
 from .samples import LATEST
 from .tables import BadFile
@@ -141,8 +141,8 @@ def simulate(options: Namespace, fmu: Fmu) -> None:
     rows = frame(record, names)
     if options.columns:
         about = {name: fmu.variable(name) for name in rows.columns}
-        write_rows(options.columns, [("column", "unit", "description"), ("time", "s", "Time"),
-                                     *((name, v.unit or "", v.description) for name, v in about.items())])  # fmt: skip
+        rows_about = [(name, v.unit or "", v.description) for name, v in about.items()]
+        write_columns(options.columns, [("time", "s", "Time"), *rows_about])
     text = rows.to_csv(lineterminator="\n")
     write(options.out, text) if options.out else sys.stdout.write(text)
     if ended:

@@ -6,8 +6,7 @@ import logging
 import sys
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack, nullcontext
-from math import ceil, isfinite
-from numbers import Real
+from math import ceil
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -16,8 +15,8 @@ from .courses import HEIGHT, RATE, courses_of, parts
 from .fmu import Fmu, Wheel
 from .samples import of_arrow
 from .times import at
-from .units import TIMES, beside, converted, headed
-from .values import check_names, short
+from .units import TIMES, beside, headed
+from .values import check_names, number, short
 from .warn import warn
 
 if TYPE_CHECKING:
@@ -142,8 +141,7 @@ def _by_name(inputs):
 
 def _seconds(name, value, range_, zero=False):
     """A length of time."""
-    value, unit = beside(value)
-    value = value.item() if getattr(value, "shape", None) == () else value
-    if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value) or value < 0.0 or value == 0.0 and not zero:
+    found = number(name, value, "s")
+    if found is None or found < 0.0 or found == 0.0 and not zero:
         raise ValueError(f"{name} = {short(value)} is not a number of seconds, {range_}")
-    return float(converted(name, value, unit, "s"))
+    return found

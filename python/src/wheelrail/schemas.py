@@ -2,55 +2,48 @@
 
 from .files import Flag, Named, Real, Setting, Several, Text
 
-# Units in which values are often written: name, factor, and what is added.
-PERCENT, MILLIMETRES, TONNES = (("%", 0.01, 0.0),), (("mm", 1e-3, 0.0),), (("t", 1e3, 0.0),)
-MILLISECONDS, STIFF = (("ms", 1e-3, 0.0),), (("kN/m", 1e3, 0.0), ("MN/m", 1e6, 0.0))
-DAMPED, TORQUES, PRESSURES = (("kN s/m", 1e3, 0.0),), (("kN m", 1e3, 0.0),), (("bar", 1e5, 0.0), ("kPa", 1e3, 0.0))
-SPEEDS, GRADIENTS = (("km/h", 1 / 3.6, 0.0),), (("per mille", 1e-3, 0.0), ("%", 0.01, 0.0))
-ABSOLUTE = (("K absolute", 1.0, -293.15),)
-
 VEHICLE = {
     "name": Text("what it is"),
     "body": {
-        "mass": Real(100, 1e6, "kg", "car body, empty", usual=3e4, others=TONNES),
-        "payload": Real(0, 1e6, "kg", "load, spread like the body", 0.0, usual=1e4, others=TONNES),
+        "mass": Real(100, 1e6, "kg", "car body, empty", usual=3e4, others=("t",)),
+        "payload": Real(0, 1e6, "kg", "load, spread like the body", 0.0, usual=1e4, others=("t",)),
         "pitch_inertia": Real(10, 1e9, "kg m2", "of the empty body about its centre of gravity"),
         "height": Real(0.1, 10, "m", "centre of gravity above the rail"),
     },
     "bogie": {
-        "mass": Real(10, 1e5, "kg", "frame of one bogie", usual=3e3, others=TONNES),
+        "mass": Real(10, 1e5, "kg", "frame of one bogie", usual=3e3, others=("t",)),
         "pitch_inertia": Real(1, 1e6, "kg m2", "about its centre of gravity"),
         "height": Real(0.1, 5, "m", "centre of gravity above the rail"),
     },
     "wheelset": {
-        "mass": Real(50, 2e4, "kg", "one wheelset", usual=1.5e3, others=TONNES),
+        "mass": Real(50, 2e4, "kg", "one wheelset", usual=1.5e3, others=("t",)),
         "inertia": Real(1, 1e4, "kg m2", "about its axle"),
-        "radius": Real(0.1, 2, "m", "of the wheels", others=MILLIMETRES),
+        "radius": Real(0.1, 2, "m", "of the wheels", others=("mm",)),
     },
     "bogie_half_distance": Real(0.5, 50, "m", "between bogie centre and middle of the body"),
     "axle_half_distance": Real(0.1, 5, "m", "between axle and bogie centre"),
     "primary": {
-        "longitudinal_stiffness": Real(1e4, 1e10, "N/m", "of one wheelset, both boxes", usual=1e7, others=STIFF),
-        "longitudinal_damping": Real(0, 1e8, "N s/m", "of one wheelset, both boxes", others=DAMPED),
-        "vertical_stiffness": Real(1e4, 1e10, "N/m", "of one wheelset, both boxes", usual=1e7, others=STIFF),
-        "vertical_damping": Real(0, 1e8, "N s/m", "of one wheelset, both boxes", others=DAMPED),
+        "longitudinal_stiffness": Real(1e4, 1e10, "N/m", "of one wheelset, both boxes", usual=1e7, others=("kN/m", "MN/m")),
+        "longitudinal_damping": Real(0, 1e8, "N s/m", "of one wheelset, both boxes", others=("kN s/m",)),
+        "vertical_stiffness": Real(1e4, 1e10, "N/m", "of one wheelset, both boxes", usual=1e7, others=("kN/m", "MN/m")),
+        "vertical_damping": Real(0, 1e8, "N s/m", "of one wheelset, both boxes", others=("kN s/m",)),
     },
     "secondary": {
-        "longitudinal_stiffness": Real(0, 1e9, "N/m", "of one bogie, both sides", others=STIFF),
-        "longitudinal_damping": Real(0, 1e8, "N s/m", "of one bogie, both sides", others=DAMPED),
-        "vertical_stiffness": Real(1e3, 1e9, "N/m", "of one bogie, both sides", others=STIFF),
-        "vertical_damping": Real(0, 1e8, "N s/m", "of one bogie, both sides", others=DAMPED),
+        "longitudinal_stiffness": Real(0, 1e9, "N/m", "of one bogie, both sides", others=("kN/m", "MN/m")),
+        "longitudinal_damping": Real(0, 1e8, "N s/m", "of one bogie, both sides", others=("kN s/m",)),
+        "vertical_stiffness": Real(1e3, 1e9, "N/m", "of one bogie, both sides", others=("kN/m", "MN/m")),
+        "vertical_damping": Real(0, 1e8, "N s/m", "of one bogie, both sides", others=("kN s/m",)),
         "height": Real(0, 5, "m", "of its shear above the rail"),
     },
     "traction_rod": {
-        "stiffness": Real(1e3, 1e10, "N/m", "between one bogie and the body", others=STIFF),
-        "damping": Real(0, 1e8, "N s/m", "of its bushes", others=DAMPED),
+        "stiffness": Real(1e3, 1e10, "N/m", "between one bogie and the body", others=("kN/m", "MN/m")),
+        "damping": Real(0, 1e8, "N s/m", "of its bushes", others=("kN s/m",)),
         "height": Real(0, 5, "m", "above the rail"),
     },
     "length": Real(1, 100, "m", "over couplers", 26.0),
     "coupler": {
-        "stiffness": Real(1e3, 1e10, "N/m", "of the draft gears between two bodies", 10e6, others=STIFF),
-        "damping": Real(0, 1e8, "N s/m", "of the draft gears between two bodies", 250e3, others=DAMPED),
+        "stiffness": Real(1e3, 1e10, "N/m", "of the draft gears between two bodies", 10e6, others=("kN/m", "MN/m")),
+        "damping": Real(0, 1e8, "N s/m", "of the draft gears between two bodies", 250e3, others=("kN s/m",)),
         "height": Real(0, 5, "m", "above the rail", 1.05),
     },
     "resistance": {
@@ -61,17 +54,17 @@ VEHICLE = {
 
 BRAKE = {
     "name": Text("what it is"),
-    "torque": Real(0, 1e6, "N m", "of one axle at full pressure", usual=1e4, others=TORQUES),
-    "pressure": Real(1e4, 2e6, "Pa", "full cylinder pressure over ambient", usual=4e5, others=PRESSURES),
-    "delay": Real(0, 60, "s", "between demand and first pressure", 0.0, others=MILLISECONDS),
-    "fill_time": Real(0.01, 120, "s", "in which 95 % of the full pressure builds up", others=MILLISECONDS),
-    "release_time": Real(0.01, 240, "s", "in which it falls to 5 %", others=MILLISECONDS),
+    "torque": Real(0, 1e6, "N m", "of one axle at full pressure", usual=1e4, others=("kN m",)),
+    "pressure": Real(1e4, 2e6, "Pa", "full cylinder pressure over ambient", usual=4e5, others=("bar", "kPa")),
+    "delay": Real(0, 60, "s", "between demand and first pressure", 0.0, others=("ms",)),
+    "fill_time": Real(0.01, 120, "s", "in which 95 % of the full pressure builds up", others=("ms",)),
+    "release_time": Real(0.01, 240, "s", "in which it falls to 5 %", others=("ms",)),
     "cylinder_volume": Real(0, 1, "m3", "cylinders and pipes of one axle", 0.0),
     "wsp": {
         "active": Flag("whether wheels are protected", True),
-        "period": Real(1e-3, 1, "s", "between decisions", 0.02, others=MILLISECONDS),
-        "slide_low": Real(0, 1, "1", "slide from which an axle is held", 0.05, others=PERCENT),
-        "slide_high": Real(0, 1, "1", "slide from which an axle is vented", 0.15, others=PERCENT),
+        "period": Real(1e-3, 1, "s", "between decisions", 0.02, others=("ms",)),
+        "slide_low": Real(0, 1, "1", "slide from which an axle is held", 0.05, others=("%",)),
+        "slide_high": Real(0, 1, "1", "slide from which an axle is vented", 0.15, others=("%",)),
         "least_slide": Real(0, 5, "m/s", "no slide below this counts", 0.3),
         "deceleration": Real(0, 100, "m/s2", "of a sliding axle, from which it is vented", 3.0),
         "recovery": Real(0, 100, "m/s2", "acceleration of an axle that comes back", 1.0),
@@ -98,30 +91,30 @@ BRAKE = {
 }
 
 CONDITION = {
-    "friction": Real(1e-3, 1, "1", "before any wheel", others=PERCENT),
-    "recovered": Real(1e-3, 1, "1", "after cleaning", others=PERCENT),
+    "friction": Real(1e-3, 1, "1", "before any wheel", others=("%",)),
+    "recovered": Real(1e-3, 1, "1", "after cleaning", others=("%",)),
 }
 
 TRACK = {
     "name": Text("what it is"),
     "sections": Text("CSV file with position, condition, slope, temperature"),
     "profile": Text("CSV file with position, elevation: height profile of the rail for irregularities; none if empty", ""),
-    "length": Real(10, 1e6, "m", "of the map ahead of the first axle", others=(("km", 1e3, 0.0),)),
+    "length": Real(10, 1e6, "m", "of the map ahead of the first axle", others=("km",)),
     "begin": Real(
         -1e7, 1e7, "m", "position in sections and profile at which the first axle starts: its chainage, where they are of a line", 0.0
     ),
     "slope": Real(
         -0.2, 0.2, "1", "rise over length, rising positive, in addition to that of the sections: 0.012 is 12 per mille", 0.0,
-        usual=0.01, others=GRADIENTS,
+        usual=0.01, others=("‰", "%"),
     ),
     "cell": Real(0.01, 100, "m", "of the map", 0.25),
     "conditions": Named(CONDITION, "conditions by name"),
     "cleaning_energy": Real(1e-3, 1e12, "J/m", "friction energy per metre of one rail that cleans it to 1/e"),
     "sand": {
-        "friction": Real(1e-3, 1, "1", "with plenty of sand", 0.2, others=PERCENT),
+        "friction": Real(1e-3, 1, "1", "with plenty of sand", 0.2, others=("%",)),
         "mass": Real(1e-9, 100, "kg/m", "sand that gains 63 %", 0.0005),
     },
-    "contact_width": Real(1e-4, 0.2, "m", "of the patch, on which a wheel leaves its heat", 0.014, usual=0.012, others=MILLIMETRES),
+    "contact_width": Real(1e-4, 0.2, "m", "of the patch, on which a wheel leaves its heat", 0.014, usual=0.012, others=("mm",)),
     "effusivity": Real(10, 1e6, "J/(m2 K sqrt(s))", "of the rail", 13580.0),
 }
 
@@ -129,18 +122,18 @@ SECTIONS = {
     "position": Real(-1e7, 1e7, "m", "where the section begins"),
     "condition": Text("a name of the track's conditions"),
     "slope": Real(
-        -0.2, 0.2, "1", "rise over length, rising positive: 0.012 is 12 per mille", 0.0, usual=0.01, others=GRADIENTS
+        -0.2, 0.2, "1", "rise over length, rising positive: 0.012 is 12 per mille", 0.0, usual=0.01, others=("‰", "%")
     ),
     "temperature": Real(
         -100, 500, "K", "of the rail over the reference, 20 degC unless thermal.reference is set: 0 is a rail of 20 degC", 0.0,
-        usual=25.0, others=ABSOLUTE, relative=True,
+        usual=25.0, relative=True,
     ),
 }
 
 PROFILE = {
     "position": Real(-1e7, 1e7, "m", "along the track"),
     "elevation": Real(
-        -0.1, 0.1, "m", "of the rail: a cubic spline between positions, level at both ends and beyond", usual=5e-3, others=MILLIMETRES
+        -0.1, 0.1, "m", "of the rail: a cubic spline between positions, level at both ends and beyond", usual=5e-3, others=("mm",)
     ),
 }
 
@@ -154,14 +147,14 @@ SCENARIO = {
     ),
     "brake": Text("file"),
     "track": Text("file"),
-    "speed": Real(0.5, 60, "m/s", "at the start", others=SPEEDS),
-    "demand": Real(0, 1, "1", "share of the full brake pressure", 1.0, others=PERCENT),
-    "payload": Real(0, 1e6, "kg", "in place of the vehicle's", optional=True, usual=1e4, others=TONNES),
-    "adhesion": Real(1e-3, 1, "1", "of contaminated rail, in place of the track's", optional=True, others=PERCENT),
-    "step": Real(1e-5, 0.01, "s", "communication step; longer ones do not resolve the primary suspension", 0.005, others=MILLISECONDS),
+    "speed": Real(0.5, 60, "m/s", "at the start", others=("km/h",)),
+    "demand": Real(0, 1, "1", "share of the full brake pressure", 1.0, others=("%",)),
+    "payload": Real(0, 1e6, "kg", "in place of the vehicle's", optional=True, usual=1e4, others=("t",)),
+    "adhesion": Real(1e-3, 1, "1", "of contaminated rail, in place of the track's", optional=True, others=("%",)),
+    "step": Real(1e-5, 0.01, "s", "communication step; longer ones do not resolve the primary suspension", 0.005, others=("ms",)),
     "hold": Real(0, 60, "s", "watched after standstill", 2.0),
     "longest": Real(0.01, 3600, "s", "a stop may take", 240.0),
-    "dry": Real(1e-3, 1, "1", "friction of the dry stop that the others are compared with", 0.3, others=PERCENT),
+    "dry": Real(1e-3, 1, "1", "friction of the dry stop that the others are compared with", 0.3, others=("%",)),
     "wheel": Named(
         Setting(-1e12, 1e12, "value: a number, the name of a choice, preset or profile, true or false"),
         "parameters of the FMU, of one wheel: preset, contact.shape and the like among them", {},

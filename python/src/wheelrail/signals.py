@@ -8,15 +8,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
 
-# Coefficients of windows, sum of a_k (-1)^k cos(2 pi k n/N). The flat top (D'Antona and Ferrero, Digital Signal
-# Processing for Measurement Systems, 2006) returns the amplitude of a sine wherever it lies between two lines.
-WINDOWS = {
-    "none": (1.0,),
-    "hann": (0.5, 0.5),
-    "flattop": (0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368),
-}
+# Windows by the names of scipy. The flat top returns the amplitude of a sine wherever it lies between two lines.
+WINDOWS = {"none": "boxcar", "hann": "hann", "flattop": "flattop"}
 MOST_SAMPLES = 10_000_000  # that a signal is resampled to
 UNEVEN = 1e-6  # relative deviation of steps from their mean up to which they count as equal
 
@@ -121,19 +117,15 @@ def window(name: str, count: int) -> np.ndarray:
     """Values of a window of `count` samples, (count,)."""
     if name not in WINDOWS:
         raise BadSignal(f"window = {name!r} is none of {', '.join(WINDOWS)}")
-    turn = 2.0 * np.pi * np.arange(count) / count
-    return sum((-1.0) ** k * a * np.cos(k * turn) for k, a in enumerate(WINDOWS[name]))
+    return scipy.signal.get_window(WINDOWS[name], count)
 
 
 def amplitudes(positions: ArrayLike, values: ArrayLike, taper: str = "flattop") -> tuple[np.ndarray, np.ndarray]:
     """Frequencies (n // 2 + 1,) [1/unit of positions] and amplitudes of the sinusoids in a signal, in its unit, without its mean."""
     positions, values = checked(positions, values)
-    step, shape = spacing(positions), window(taper, len(values))
-    lines = np.abs(np.fft.rfft((values - np.mean(values)) * shape)) * 2.0 / shape.sum()
-    lines[0] *= 0.5
-    if len(values) % 2 == 0:
-        lines[-1] *= 0.5
-    return np.fft.rfftfreq(len(values), step), lines
+    frequency, power = scipy.signal.periodogram(values, 1.0 / spacing(positions), window(taper, len(values)), scaling="spectrum")
+    once = (frequency == 0.0) | (frequency > 0.499999 / spacing(positions))  # lines that have no twin of negative frequency
+    return frequency, np.sqrt(np.where(once, 1.0, 2.0) * power)
 
 
 def harmonic(positions: ArrayLike, values: ArrayLike, frequency: float) -> tuple[float, float]:
@@ -154,11 +146,8 @@ def octaves(positions: ArrayLike, values: ArrayLike, reference: float = 1.0, tap
     """
     positions, values = checked(positions, values)
     count, step, shape = len(values), spacing(positions), window(taper, len(values))
-    squares = 2.0 * np.abs(np.fft.rfft((values - np.mean(values)) * shape)) ** 2 / (count * np.sum(shape**2))
-    squares[0] *= 0.5
-    if count % 2 == 0:
-        squares[-1] *= 0.5
     width = 1.0 / (count * step)
+    squares = width * scipy.signal.periodogram(values, 1.0 / step, shape)[1]
     low, high = 10.0 * np.log10(2.0 * width), 10.0 * np.log10(0.5 / step)
     numbers = np.arange(np.floor(low), np.ceil(high) + 1.0)
     below, above = 10.0 ** (0.1 * numbers - 0.05), 10.0 ** (0.1 * numbers + 0.05)
@@ -176,7 +165,7 @@ def of_turns(time: ArrayLike, omega: ArrayLike, velocity: ArrayLike, force: Arra
     it [1]. All arguments are (n,): time [s], omega [rad/s], velocity [m/s], force [N]."""
     time, omega = checked(time, omega)
     velocity, force = checked(time, velocity)[1], checked(time, force)[1]
-    angle = np.append(0.0, np.cumsum(0.5 * (omega[1:] + omega[:-1]) * np.diff(time)))
+    angle = scipy.integrate.cumulative_trapezoid(omega, time, initial=0.0)
     turn = np.floor(np.abs(angle) / (2.0 * np.pi)).astype(int)
     rows = []
     for number in range(turn[-1]):

@@ -16,14 +16,13 @@ from pathlib import Path
 from types import SimpleNamespace
 from xml.sax.saxutils import quoteattr
 
-from .calls import Calls
 from .files import BadFile
-from .fmu import instance
+from .origin import preset_values
 from .output import fresh
 from .output import write as write_file
 from .parallel import friction
 from .scenario import of_two_kinds
-from .values import Refused, kind
+from .values import Refused
 from .vehicle import AXLES, Coach
 from .wheelset import whole_wheelset
 
@@ -80,42 +79,12 @@ def wheelset_values(scenario, fmu):
     return values | {"drive.load": load, "rail.friction": friction(scenario)}
 
 
-def preset_values(fmu, preset):
-    """Parameters of a preset, by name: type and value, as masters write it."""
-    calls = Calls(preset)
-    slave = instance(fmu, preset, calls)
-    try:
-        calls(slave.setupExperiment, startTime=0.0)
-        calls(slave.setString, [fmu.variable("preset").valueReference], [preset])
-        calls(slave.enterInitializationMode)
-        values = {}
-        for v in fmu.variables.values():
-            if v.causality == "parameter" and v.name != "preset":
-                [value] = calls(getattr(slave, f"get{kind(v)}"), [v.valueReference])
-                values[v.name] = (v.type, _written(v, value))
-        return values
-    finally:
-        slave.freeInstance()
-
-
-def _written(variable, value):
-    """A value as text: enumerations by the name of their item."""
-    match variable.type:
-        case "Enumeration":
-            return variable.declaredType.items[value - 1].name
-        case "Boolean":
-            return "true" if value else "false"
-        case "String":
-            return value.decode() if isinstance(value, bytes) else value
-    return repr(value)
-
-
 def presets(fmu):
     """What every preset changes of the default one: name of the preset to names, types and values."""
     default = preset_values(fmu, "railway")
     names = sorted(path.stem for path in (Path(fmu.directory) / "resources").glob("*.json"))
     changed = {name: preset_values(fmu, name).items() - default.items() for name in names}
-    return {name: dict(sorted(values)) for name, values in changed.items()}
+    return {name: typed(fmu.variables, dict(sorted(values))) for name, values in changed.items()}
 
 
 def typed(variables, values):
@@ -124,7 +93,12 @@ def typed(variables, values):
 
 
 def _plain(variable, value):
-    """A number as text."""
+    """A value as text: choices by their names."""
+    match variable.type:
+        case "Enumeration" | "String":
+            return value
+        case "Boolean":
+            return "true" if value else "false"
     return repr(int(value) if variable.type == "Integer" else float(value))
 
 

@@ -6,6 +6,7 @@ Arguments that may be arrays give arrays of their shape.
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
 
 # Contact filter of CNOSSOS-EU for 100 kN and a wheel of 920 mm: wavelength [m] and level [dB]. Directive (EU) 2015/996
@@ -27,17 +28,9 @@ EN_ISO_3095 = dict(
 )
 
 
-def bessel_j0(x: ArrayLike) -> np.ndarray:
-    """Bessel function J0: the mean of cos(x sin t) over a turn, with so many points that it is exact to rounding."""
-    x = np.abs(np.asarray(x, float))
-    count = 2 * int(np.max(x, initial=0.0)) + 64
-    turn = np.pi * (np.arange(count) + 0.5) / count
-    return np.cos(x[..., None] * np.sin(turn)).mean(axis=-1)
-
-
 def contact_filter(half_width: float, wavelength: ArrayLike) -> np.ndarray:
     """Share [1] of a sinusoid of a wavelength [m] that a Hertzian line contact of this half-width [m] feels, of first order: J0(2 pi a/lambda)."""
-    return bessel_j0(2.0 * np.pi * half_width / np.asarray(wavelength, float))
+    return scipy.special.j0(2.0 * np.pi * half_width / np.asarray(wavelength, float))
 
 
 def contact_filter_level(half_width: float, wavelength: ArrayLike) -> np.ndarray:

@@ -11,7 +11,7 @@ import inspect
 import json
 import math
 import time
-from contextlib import nullcontext
+from contextlib import closing, nullcontext
 from itertools import product
 from pathlib import Path
 from types import SimpleNamespace
@@ -19,11 +19,12 @@ from types import SimpleNamespace
 from .controllers import ControllerFailed
 from .files import BadFile
 from .fmu import Fmu, Refused
+from .output import beside
 from .own import OwnClass
 from .report import figures, known
 from .scenario import SHORT, changed
-from .sweep_table import DRY, EXTENSION, OF_DRY, OVER_DRY, REASON, RESULTS, Table
-from .sweep_table import columns_path, dry_path, unfinished, write_meanings, write_unfinished
+from .sweep_table import DRY, EXTENSION, OF_DRY, OVER_DRY, REASON, RESULTS, Table, shown
+from .sweep_table import write_meanings, write_unfinished
 from .train import Stop, TrackEnds
 from .warn import Once, collected
 
@@ -168,12 +169,8 @@ def results(scenario, dry, path, limit):
         from distributed import get_worker
 
         path = Path(get_worker().local_directory) / path
-    with Fmu(path) if path else nullcontext() as fmu:
-        run = Stop(scenario, fmu, dry)
-        try:
-            found = figures(run.run(watch(limit)))
-        finally:
-            run.close()
+    with Fmu(path) if path else nullcontext() as fmu, closing(Stop(scenario, fmu, dry)) as run:
+        found = figures(run.run(watch(limit)))
     worst = lambda name: min if name == "mean adhesion" else max
     values = {name: found[name][0] for name in (RESULTS if dry is None else OF_DRY)}
     return {name: float(worst(name)(known(v)) if isinstance(v, list) else v) for name, v in values.items()}
@@ -185,7 +182,7 @@ class Files:
     def __init__(self, scenario, rigid, path):
         self.path, self.name = Path(path), fingerprint(scenario, rigid)
         self.stops = Table(self.path, self.name, lists(scenario), [*RESULTS, *OVER_DRY])
-        self.dry = Table(dry_path(self.path), self.name, references(scenario)[0], OF_DRY)
+        self.dry = Table(beside(self.path, "dry"), self.name, references(scenario)[0], OF_DRY)
 
     def missing(self, scenario):
         """What is to be computed, dry stops first: (dry, point)."""
@@ -218,7 +215,7 @@ def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
     if fmu is not None:
         client.register_plugin(UploadFile(str(fmu)))
         fmu = Path(fmu).name
-    write_meanings(columns_path(files.path), files.stops.keys)
+    write_meanings(beside(files.path, "columns"), files.stops.keys)
     for (dry, point), found in finished(client, missing, made, fmu, limit):
         texts = found.pop(TOLD, ())
         row = point | ({DRY: True} if dry else {}) | found
@@ -232,7 +229,7 @@ def sweep(client, scenario, fmu, path, progress=lambda row: None, limit=0.0):
         for text in texts:
             once.warn(text, f"{described(row)}, ")
     files.fill()
-    write_unfinished(unfinished(files.path), files.name, [*files.stops.keys, DRY], failed)
+    write_unfinished(beside(files.path, "unfinished"), files.name, [*files.stops.keys, DRY], failed)
     return files.stops.rows, failed
 
 
@@ -264,6 +261,5 @@ def finished(client, missing, made, fmu, limit):
 def described(row):
     """A point in words."""
     keys = [key for key in row if key not in (*RESULTS, *OVER_DRY, REASON)]
-    text = lambda value: f"{value:g}" if isinstance(value, int | float) and not isinstance(value, bool) else str(value)
-    words = ", ".join(f"{key} {text(row[key])}" for key in keys)
+    words = ", ".join(f"{key} {shown(row[key])}" for key in keys)
     return ", ".join(filter(None, ["dry" if row.get(DRY) is True else "", words])) or "the scenario"

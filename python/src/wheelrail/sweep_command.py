@@ -6,11 +6,11 @@ from contextlib import ExitStack
 
 from .files import BadFile
 from .interrupt import kept_from_children
-from .output import Unwritten
+from .output import Unwritten, beside
 from .progress import Progress
 from .results import directory
 from .sweep import Files, SchedulerGone, described, lists, points, references, scenarios_of, speed, sweep
-from .sweep_table import REASON, columns_path, dry_path, unfinished
+from .sweep_table import REASON
 
 PATIENCE = 10.0  # s, for a scheduler to answer and for its first worker
 
@@ -32,9 +32,10 @@ def run(options, scenario):
     from .plots_sweep import draw_sweep
 
     path = directory(options.out, scenario) / "sweep.csv"
+    unfinished = beside(path, "unfinished")
     scenarios_of(scenario, points(scenario))  # wrong values are said before anything is deleted or begins
     if options.force:
-        for old in (path, dry_path(path), unfinished(path)):
+        for old in (path, beside(path, "dry"), unfinished):
             old.unlink(missing_ok=True)
     fmu, files = None if options.rigid else options.fmu, Files(scenario, options.rigid, path)
     swept = " × ".join(f"{key} ({len(values)})" for key, values in lists(scenario).items())
@@ -47,10 +48,10 @@ def run(options, scenario):
     for row in failed:
         print(f"no result: {described(row)}: {row[REASON]}")
     if not rows:
-        raise SweepStopped(f"no stop came to its end; see {unfinished(path)}")
+        raise SweepStopped(f"no stop came to its end; see {unfinished}")
     if failed:
-        print(f"{len(failed)} stops without results, named in {unfinished(path)}; the next run tries them again")
-    written = [path, dry_path(path), columns_path(path)]
+        print(f"{len(failed)} stops without results, named in {unfinished}; the next run tries them again")
+    written = [path, beside(path, "dry"), beside(path, "columns")]
     problem = draw_sweep(path.with_suffix(".png"), rows, list(lists(scenario)), scenario.name)
     written += [] if problem else [path.with_suffix(".png")]
     print(f"{len(rows)} stops, {before} of them known before; written: {', '.join(map(str, written))}")

@@ -9,8 +9,7 @@ import os
 from io import StringIO
 
 from .files import BadFile, Flag, Real, Several
-from .output import append, write_rows
-from .report import write_columns
+from .output import append, write_columns, write_rows
 from .scenario import field_of
 
 SCENARIO = "scenario"
@@ -38,6 +37,11 @@ OF_DRY = {name: RESULTS[name] for name in ("stopping distance", "stopping time")
 def cell(value):
     """A value as text."""
     return value if isinstance(value, str) else json.dumps(value) if isinstance(value, bool | list | tuple) else repr(value)
+
+
+def shown(value):
+    """A value as a person reads it."""
+    return f"{value:g}" if isinstance(value, int | float) and not isinstance(value, bool) else cell(value)
 
 
 def parsed(key, text):
@@ -98,27 +102,9 @@ class Table:
             if row[SCENARIO] != self.name:
                 raise BadFile(f"{self.path}:{line}: a row of another scenario ({row[SCENARIO]}, this is {self.name}){other}")
         try:
-            return [self._row(row) for row in rows]
+            return [{k: parsed(k, row[k]) for k in self.keys} | {k: float(row[k]) for k in self.results} for row in rows]
         except (ValueError, TypeError) as error:
             raise BadFile(f"{self.path}: a row cannot be read: {error}{other}") from None
-
-    def _row(self, row):
-        return {key: parsed(key, row[key]) for key in self.keys} | {name: float(row[name]) for name in self.results}
-
-
-def unfinished(path):
-    """Where stops without results are named: beside the results."""
-    return path.with_name(f"{path.stem}_unfinished.csv")
-
-
-def dry_path(path):
-    """Where the dry stops are: beside the results."""
-    return path.with_name(f"{path.stem}_dry.csv")
-
-
-def columns_path(path):
-    """Where the columns are explained: beside the results."""
-    return path.with_name(f"{path.stem}_columns.csv")
 
 
 def write_unfinished(path, name, keys, failed):

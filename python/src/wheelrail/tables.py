@@ -7,6 +7,7 @@ of rails and wheels are read by the same rules.
 
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -72,6 +73,12 @@ def read_table(path: str | Path) -> tuple[list[str], int, Iterator[tuple[int, li
     return names, head, _rows(path, len(names), head, lines[1:])
 
 
+def headings_of(path: str | Path) -> list[str]:
+    """What seem to be the names of the columns of a file, whatever it is."""
+    with open(path, encoding="utf-8-sig", errors="replace") as file:
+        return [name.strip() for name in file.readline().split(",")]
+
+
 def _rows(path, width, head, lines):
     """Line and cells of every row; one with other cells than names is refused."""
     for line, text in lines:
@@ -87,17 +94,9 @@ def _cells(path, line, text):
     """Cells of a line without the blanks and the quotes around them."""
     if '"' not in text:
         return [cell.strip() for cell in text.split(",")]
-    quoted, cells = False, [""]
-    for letter in text:
-        quoted ^= letter == '"'
-        if letter == "," and not quoted:
-            cells.append("")
-        else:
-            cells[-1] += letter
-    if quoted:
+    if text.count('"') % 2:
         raise BadFile(f"{path}:{line}: a quote is not closed in this line")
-    bare = lambda cell: cell[1:-1].strip() if len(cell) > 1 and cell[0] == cell[-1] == '"' else cell
-    return [bare(cell.strip()) for cell in cells]
+    return [cell.strip() for cell in next(csv.reader([text], skipinitialspace=True))]
 
 
 def number_in(path: str | Path, line: int, name: str, cell: str) -> float:

@@ -7,12 +7,10 @@ added as such.
 
 from __future__ import annotations
 
-from decimal import Context
 from fractions import Fraction
 from functools import lru_cache
 
 DIGITS = 17  # characters of a decimal that a person may have written; a float that is none has more
-DECIMALS = Context(prec=40)  # whatever that of the thread is
 SIMPLE = 10**6  # largest denominator of a fraction that is meant by such a float
 
 
@@ -31,8 +29,4 @@ def at(count: int, step: float) -> float:
 
 def after(time: float, step: float) -> float:
     """Time [s] of a step of `step` [s] that begins at `time` [s]."""
-    time, step = float(time), float(step)
-    begin, length = repr(time), repr(step)
-    if len(begin) <= DIGITS >= len(length):
-        return float(DECIMALS.add(DECIMALS.create_decimal(begin), DECIMALS.create_decimal(length)))
-    return float(meant(time) + meant(step))
+    return float(meant(float(time)) + meant(float(step)))

@@ -1,15 +1,13 @@
 """Units beside values: what a person, a table or another library says a number is in, and the same number in SI units.
 
-A unit is written as a product of powers of symbols: `km/h`, `kN m`, `kN·m`, `W/(m2.K)`, `m s-1`, `°C`. Any multiple of an SI unit
-is read, and the units that railways use beside them; what is not known here is asked of pint, if that is installed. `beside` finds
-the unit that a value brings along, `named` that in a name; `converted` takes a number to SI units or refuses it by its name.
+A unit is written as a product of powers of symbols: `km/h`, `kN m`, `kN·m`, `W/(m2.K)`, `m s-1`, `°C`. pint knows the units; angles
+are no numbers here. `beside` finds the unit that a value brings along, `named` that in a name; `converted` takes a number to SI units
+or refuses it by its name.
 """
 
 from __future__ import annotations
 
-import math
 import re
-import sys
 from collections.abc import Container, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
@@ -18,30 +16,14 @@ from typing import Any
 
 import numpy as np
 
-BASES = ("kg", "m", "s", "rad", "K", "A", "mol", "cd")
-DERIVED = {"N": "kg.m/s2", "Pa": "N/m2", "J": "N.m", "W": "J/s"}  # units that stay as they are written
-ZERO = Fraction("273.15")  # K at 0 °C
-TURN = 2 * Fraction(math.pi)  # rad
-# Other symbols: how much of which SI unit one is. Those in PREFIXED, and the units above but kg, take prefixes.
-SYMBOLS = {
-    "g": (Fraction(1, 1000), "kg"), "t": (1000, "kg"), "h": (3600, "s"), "min": (60, "s"), "d": (86400, "s"), "Hz": (1, "1/s"),
-    "bar": (100_000, "Pa"), "l": (Fraction(1, 1000), "m3"), "Nm": (1, "N.m"), "Ns": (1, "N.s"), "Wh": (3600, "J"), "Ws": (1, "J"),
-    "kgf": (Fraction("9.80665"), "N"), "kp": (Fraction("9.80665"), "N"), "deg": (TURN / 360, "rad"), "rpm": (TURN / 60, "rad/s"),
-    "%": (Fraction(1, 100), "1"), "‰": (Fraction(1, 1000), "1"), "degC": (1, "K"),
-}  # fmt: skip
-PREFIXED = ("m", "s", "rad", "K", *DERIVED, "g", "bar", "l", "Nm", "Ns", "Wh", "Hz")
-PREFIXES = {"n": -9, "u": -6, "m": -3, "c": -2, "d": -1, "da": 1, "h": 2, "k": 3, "M": 6, "G": 9}
-# Words in the place of symbols.
-WORDS = {
-    "gram": "g", "meter": "m", "metre": "m", "second": "s", "sec": "s", "minute": "min", "hour": "h", "hr": "h", "day": "d", "radian": "rad",
-    "degree": "deg", "kelvin": "K", "newton": "N", "pascal": "Pa", "joule": "J", "watt": "W", "hertz": "Hz", "liter": "l", "litre": "l",
-    "tonne": "t", "percent": "%", "kmh": "km/h", "kph": "km/h",
-}  # fmt: skip
-LONG = {"nano": "n", "micro": "u", "milli": "m", "centi": "c", "kilo": "k", "mega": "M", "giga": "G"}
+DERIVED = ("N", "Pa", "J", "W")  # units that stay as they are written
 NONE = ("", "1", "-", "dimensionless", "none", "unitless")  # of a number without a unit
-SPELLED = str.maketrans({"·": ".", "⋅": ".", "*": ".", "×": ".", "−": "-", "µ": "u", "μ": "u"} | {r: f"^{n}" for n, r in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")})
+LETTERS = "gmsKANJWthdl%‰"  # that are units by themselves behind a name
+SPELLED = str.maketrans({"·": "*", "⋅": "*", "×": "*", ".": "*", "−": "-"})
 CELSIUS = re.compile(r"℃|(?:°|deg(?:ree)?s?)[ _]?c(?:elsius)?\b|\bcelsius\b", re.IGNORECASE)
-TOKEN = re.compile(r"[./()]|[^\d\s.^/()+-]+|\^?[+-]?\d+")
+POWER = re.compile(r"(?<=[^\W\d_])\^?(?=[+-]?\d)")  # between a symbol and its exponent
+WORD = re.compile(r"[^\W\d_]{4,}")  # which is a name, no symbol, whatever its letters
+TOGETHER = re.compile(r"\b(\w?[NW])([ms])\b")  # two symbols without a space
 # A name with its unit, as people head columns: `force [kN]`, `force (kN)`, `force/kN`, `force in kN`, `force, kN`.
 HEADED = re.compile(r"^\s*(?P<name>[\w.]+(?:\[\d+\])?(?: +[\w.]+)*?)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>.*)\)|/\s*(?P<c>.+)|\s+in\s+(?P<d>.+)|,\s*(?P<e>.+))?\s*$")
 TIMES = ("time", "t")  # names of columns of times, in small letters
@@ -53,19 +35,13 @@ class UnitError(ValueError):
 
 @dataclass(frozen=True)
 class Unit:
-    """`value × factor + offset` is in `si`, a product of powers of SI units, pairs of symbol and exponent."""
+    """`value × factor + offset` is in `si`, a product of powers of SI units, pairs of symbol and exponent; `bases` are those of the
+    base units that it consists of."""
 
     factor: Fraction
     offset: Fraction
     si: tuple[tuple[str, int], ...]
-
-    def dimension(self) -> tuple[int, ...]:
-        """Exponents of the bases."""
-        found = dict.fromkeys(BASES, 0)
-        for symbol, power in self.si:
-            for base, exponent in zip(BASES, unit_of(DERIVED[symbol]).dimension()) if symbol in DERIVED else [(symbol, 1)]:
-                found[base] += power * exponent
-        return tuple(found.values())
+    bases: frozenset[tuple[str, int]]
 
     def name(self) -> str:
         """The SI unit, as the FMU spells it."""
@@ -81,91 +57,48 @@ class Unit:
 
 
 @cache
+def _registry():
+    """The units of pint, with exact factors; an angle is a quantity of its own."""
+    import pint
+
+    registry = pint.UnitRegistry(non_int_type=Fraction, on_redefinition="ignore")
+    registry.define("radian = [angle] = rad")
+    for name, also in (("kilometer_per_hour", "kmh"), ("force_kilogram", "kp")):
+        registry.define(f"@alias {name} = {also}")
+    return registry, {registry.parse_units(symbol).dimensionality: symbol for symbol in DERIVED}
+
+
+@cache
 def unit_of(text: str) -> Unit:
     """The unit of a text; `UnitError` if nobody knows it."""
     if text.strip().lower() in NONE:
-        return Unit(Fraction(1), Fraction(0), ())
-    spelled = CELSIUS.sub("degC", text.strip().removeprefix("Δ").removeprefix("delta_"))
-    alone = spelled == "degC" and not text.strip().startswith(("Δ", "delta_"))
-    spelled = spelled.replace("**", "^").replace("°", "deg").translate(SPELLED)
-    try:
-        tokens = TOKEN.findall(spelled)
-        if "".join(tokens) != re.sub(r"\s", "", spelled):
-            raise KeyError(text)
-        factor, si = _product(tokens)
-        if tokens:
-            raise KeyError(text)
-    except (KeyError, IndexError):
-        return _of_pint(text)
-    return Unit(factor, ZERO if alone else Fraction(0), tuple((symbol, power) for symbol, power in si.items() if power))
-
-
-def _product(tokens):
-    """Factor and powers of SI units of a product, whose tokens are taken away."""
-    factor, si, sign = Fraction(1), {}, 1
-    while tokens and tokens[0] != ")":
-        token = tokens.pop(0)
-        if token in "./":
-            sign = -1 if token == "/" else 1
+        return Unit(Fraction(1), Fraction(0), (), frozenset())
+    bare = text.strip().removeprefix("Δ").removeprefix("delta_")
+    spelled = CELSIUS.sub("degC", bare)
+    spelled = POWER.sub("**", TOGETHER.sub(r"\1 \2", spelled.replace("**", "^").translate(SPELLED)))
+    for written in (spelled, WORD.sub(lambda word: word[0].lower(), spelled)):
+        try:
+            return _of_pint(written, relative=bare != text.strip())
+        except Exception:  # whatever it says of a text that is no unit
             continue
-        if token == "(":
-            of, parts = _product(tokens)
-            if tokens.pop(0) != ")":
-                raise KeyError(token)
-        else:
-            of, parts = _symbol(token)
-        power = sign * int(tokens.pop(0).lstrip("^")) if tokens and re.match(r"[\^+\-\d]", tokens[0]) and token != "1" else sign
-        factor *= of**power
-        for symbol, exponent in parts.items():
-            si[symbol] = si.get(symbol, 0) + power * exponent
-        sign = 1
-    if sign < 0:
-        raise KeyError("/")
-    return factor, si
+    raise UnitError(f"{text!r} is no unit that is known here")
 
 
-def _symbol(text):
-    """Factor and powers of SI units of one symbol or word."""
-    if text == "1":
-        return Fraction(1), {}
-    if text in BASES or text in DERIVED:
-        return Fraction(1), {text: 1}
-    if text in SYMBOLS:
-        factor, si = SYMBOLS[text]
-        of, parts = _product(TOKEN.findall(si))
-        return factor * of, parts
-    for prefix, ten in PREFIXES.items():
-        if text.startswith(prefix) and text.removeprefix(prefix) in PREFIXED:
-            of, parts = _symbol(text.removeprefix(prefix))
-            return Fraction(10) ** ten * of, parts
-    word = text.lower() if text.lower() in WORDS else text.lower().removesuffix("s")
-    long = next((prefix for prefix in LONG if word.startswith(prefix)), "")
-    return _product(TOKEN.findall(LONG.get(long, "") + WORDS[word.removeprefix(long)]))
-
-
-def _of_pint(text):
-    """The unit as pint knows it."""
-    unknown = UnitError(f"{text!r} is no unit that is known here{'' if _installed('pint') else ', and pint, which knows more, is not installed'}")
-    if not _installed("pint"):
-        raise unknown
-    import pint
-
-    try:
-        found = [pint.get_application_registry().Quantity(amount, text).to_base_units() for amount in (0.0, 1.0, 2.0)]
-        base = unit_of(f"{found[0].units:~C}")
-    except Exception:  # whatever it says of a text that is no unit
-        raise unknown from None
-    zero, one, two = (float(quantity.magnitude) for quantity in found)
-    if not math.isclose(two - one, one - zero, rel_tol=1e-9):  # a logarithm, such as dB
-        raise unknown
-    return Unit(Fraction(one - zero), Fraction(zero), base.si)
-
-
-def _installed(module):
-    """Whether a library can be imported."""
-    from importlib.util import find_spec
-
-    return module in sys.modules or find_spec(module) is not None
+def _of_pint(text, relative):
+    """The unit that pint reads."""
+    registry, derived = _registry()
+    unit = registry.parse_units(text)
+    base = lambda of: [(registry.get_symbol(name), int(power)) for name, power in registry.get_base_units(of)[1]._units.items()]
+    factor, bases = registry.get_base_units(unit)[0], frozenset(base(unit))
+    offset = 0 if "rad" in dict(bases) else registry.Quantity(Fraction(0), unit).to_base_units().magnitude
+    if offset and bases != {("K", 1)}:
+        raise UnitError("a logarithm, such as dB")
+    si = {}
+    for name, power in unit._units.items():
+        part = registry.Unit(name)
+        for symbol, exponent in [(derived[part.dimensionality], 1)] if part.dimensionality in derived else base(part):
+            si[symbol] = si.get(symbol, 0) + int(power) * exponent
+    return Unit(Fraction(factor), Fraction(0 if relative else offset), tuple((s, power) for s, power in si.items() if power), bases)
 
 
 def converted(name: str, values: Any, unit: str | None, expected: str, relative: bool = False, shown: str = "") -> Any:
@@ -178,7 +111,7 @@ def converted(name: str, values: Any, unit: str | None, expected: str, relative:
         known = unit_of(unit)
     except UnitError as error:
         raise UnitError(f"{name}: {error}; {wanted}") from None
-    if known.dimension() != unit_of(expected or "1").dimension():
+    if known.bases != unit_of(expected or "1").bases:
         raise UnitError(f"{name} is in {unit!r}: {wanted}")
     if relative and known.offset:
         raise UnitError(f"{name} is a difference, for which {unit!r} can be read in two ways: write it in K")
@@ -211,7 +144,7 @@ def behind(name: Any) -> str | None:
             unit_of(unit)
         except UnitError:
             return None
-        if len(unit) == 1 and unit not in (*BASES, *DERIVED, *SYMBOLS):
+        if len(unit) == 1 and unit not in LETTERS:
             return None
     return unit
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from ctypes import c_void_p
+from math import isfinite
 from numbers import Integral, Real
 
 from fmpy.model_description import ScalarVariable
@@ -43,6 +44,15 @@ def check_names(values: object, call: str) -> None:
         raise ValueError(f"{call}({short(values)}): expected names and values, such as {{'drive.load': 8e4}}")
 
 
+def number(name: str, value: object, expected: str) -> float | None:
+    """A number in an `expected` unit, of one that may have another one beside it; None if it is no finite number."""
+    value, unit = beside(value)
+    value = value.item() if getattr(value, "shape", None) == () else value
+    if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value):
+        return None
+    return float(converted(name, value, unit, expected))
+
+
 def to_fmu(variable: ScalarVariable, value: object, unit: str | None = None, change: str | None = None) -> float | int | str:
     """A value as the variable wants it, of a number in a `unit`, or with one beside it; a `change` is a difference, with "/s" a rate."""
     name, own = variable.name, variable.unit or ""
@@ -77,6 +87,11 @@ def short(value: object) -> str:
     """A value in not too many characters."""
     text = " ".join(repr(value).split())
     return text if len(text) < 60 else text[:57] + "..."
+
+
+def first_line(failure: BaseException) -> str:
+    """The first line of what went wrong, or its kind."""
+    return (str(failure).splitlines() or [type(failure).__name__])[0]
 
 
 def saved_state(saved: object) -> tuple[object, float]:

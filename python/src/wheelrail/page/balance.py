@@ -93,7 +93,7 @@ def momentum(run):
         return None
     if run.has("energy.gravity") and np.any(run.get("energy.gravity")):
         return None  # The weight on a slope acts besides and is not recorded.
-    vehicle = run.about.get("vehicle_mass", _of(run.about.get("parameters"), "vehicle.mass"))
+    vehicle = run.about.get("vehicle_mass", (run.about.get("parameters") or {}).get("vehicle.mass"))
     (contact, _), (hub, blur) = _integral(run, "contact.force_x", SAMPLED), _integral(run, "hub.force_x", HELD)
     change = float(run.get("wheel.velocity")[-1] - run.get("wheel.velocity")[0])
     wheel = float(run.get("wheel.mass")[0])
@@ -152,7 +152,3 @@ def _share(missing, *impulses):
 
 def _percent(value):
     return f"{number(100.0 * float(value), 2)} %"
-
-
-def _of(values, name):
-    return values.get(name) if isinstance(values, dict) else None

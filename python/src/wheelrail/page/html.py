@@ -61,17 +61,13 @@ def head(title, subtitle, tiles):
     return f'<header>\n<h1>{escape(title)}</h1>\n<p class="sub">{escape(subtitle)}</p>\n<dl class="tiles">{cells}</dl>\n</header>'
 
 
-def section(key, title, content, note=""):
-    """A section with a heading."""
-    words = f'<p class="note">{escape(note)}</p>' if note else ""
-    return f'<section id="{key}">\n<h2>{escape(title)}</h2>\n{words}{content}\n</section>'
-
-
-def folded_section(key, title, content, note=""):
-    """A section that opens at a click."""
-    words = f'<p class="note">{escape(note)}</p>' if note else ""
+def section(key, title, content, note="", folded=False):
+    """A section with a heading, at whose click a `folded` one opens."""
+    words, head = f'<p class="note">{escape(note)}</p>' if note else "", f"<h2>{escape(title)}</h2>"
+    if not folded:
+        return f'<section id="{key}">\n{head}\n{words}{content}\n</section>'
     inside = f'{words}<div class="inside">{content}</div>'
-    return f'<section id="{key}" class="folded">\n<details><summary><h2>{escape(title)}</h2></summary>\n{inside}\n</details>\n</section>'
+    return f'<section id="{key}" class="folded">\n<details><summary>{head}</summary>\n{inside}\n</details>\n</section>'
 
 
 def table(rows, kind="", header=True):
@@ -80,11 +76,6 @@ def table(rows, kind="", header=True):
     top, rest = (f"<thead>{row(rows[0], 'th')}</thead>", rows[1:]) if header else ("", rows)
     body = "".join(row(cells, "td") for cells in rest)
     return f'<div class="scroll"><table class="{kind}">{top}<tbody>{body}</tbody></table></div>'
-
-
-def folded(summary, content):
-    """Content that opens at a click."""
-    return f"<details><summary>{escape(summary)}</summary>{content}</details>"
 
 
 def notice(lines):

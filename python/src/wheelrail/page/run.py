@@ -78,11 +78,8 @@ class Run:
 def of_table(title, fmu, names, table, patch=None, about=None):
     """The run of a table whose columns are `time` and the variables `names` of an opened `Fmu`, which says what they are."""
     table = np.asarray(table, float)
-    unit = lambda v: v.unit or (v.declaredType.unit if v.declaredType is not None else None) or ""
-    series = {
-        name: Series(table[:, k], unit(fmu.variable(name)), fmu.variable(name).description or "")
-        for k, name in enumerate(names, 1)
-    }
+    known = {name: fmu.variable(name) for name in names}
+    series = {name: Series(table[:, k], v.unit or "", v.description or "") for k, (name, v) in enumerate(known.items(), 1)}
     about = {"fmu_version": fmu.description.version or ""} | (about or {})
     return Run(title, table[:, 0], series, seen_rows(patch) if patch else None, about=about)
 
@@ -93,7 +90,6 @@ def of_dataset(dataset):
     dataset = _of_one_run(dataset)
     time = np.asarray(dataset["time"].values, float)
     series, patch, fields, lines, across = {}, {}, {}, {}, {}
-    at = time
     for name, variable in dataset.data_vars.items():
         unit, meaning = variable.attrs.get("units", ""), variable.attrs.get("comment", variable.attrs.get("long_name", ""))
         values = _numbers(variable)
@@ -101,26 +97,22 @@ def of_dataset(dataset):
             continue
         if variable.dims == ("time",):
             series[name] = Series(values, unit, meaning)
-        elif values.ndim == 2 and variable.dims[1] == "depth" and unit in ("K", ""):
+        elif variable.dims == ("time", "depth") and unit in ("K", ""):
             seen = np.isfinite(values).any(axis=1)
-            at_depth = np.asarray(dataset["depth"].values, float)
-            fields[name.removeprefix("profile.")] = Field(
-                _axis(dataset, variable.dims[0], time)[seen], at_depth, values[seen], meaning
-            )
+            fields[name.removeprefix("profile.")] = Field(time[seen], np.asarray(dataset["depth"].values, float), values[seen], meaning)
         elif variable.dims == ("time", "line", "node"):
             across[name.removeprefix("patch.")] = values
-        elif values.ndim == 2 and variable.dims[1] == "line":
+        elif variable.dims == ("time", "line"):
             lines[name.removeprefix("line.")] = values
-        elif values.ndim == 2 and name.startswith("profile."):
+        elif variable.dims == ("time", "node"):
             patch[name.removeprefix("profile.")] = values
-            at = _axis(dataset, variable.dims[0], time)
     if not series and not fields and not patch and not lines:
         raise BadFile("the record has no numbers over time alone, which a page could show as curves")
     about = {name: _loaded(value) for name, value in dataset.attrs.items()}
     title = str(about.pop("title", "") or "Run")
     seen = seen_lines(time, lines)
     between = Profiles(time, across | {"x": np.asarray(dataset["x"].values, float)}) if across and seen else None
-    return Run(title, time, series, seen_rows(Profiles(at, patch)), fields, about, seen, between, _damage(dataset))
+    return Run(title, time, series, seen_rows(Profiles(time, patch)), fields, about, seen, between, _damage(dataset))
 
 
 def _of_one_run(dataset):
@@ -145,7 +137,7 @@ def _of_one_run(dataset):
     for name in dataset.data_vars:
         unit, expected = dataset[name].attrs.get("units", ""), guessed(name) if OF_FMU.fullmatch(str(name)) else ""
         try:
-            if unit and expected and unit_of(unit).dimension() != unit_of(expected).dimension():
+            if unit and expected and unit_of(unit).bases != unit_of(expected).bases:
                 raise UnitError(f"expected {expected}")
         except UnitError as error:
             raise BadFile(f"{name} is in {unit!r}: {error}") from None
@@ -166,11 +158,6 @@ def _numbers(variable):
     """Values as floats, of flags too; None of texts, which choices are."""
     values = np.asarray(variable.values)
     return values.astype(float) if values.dtype.kind in "fiub" else None
-
-
-def _axis(dataset, name, time):
-    """Coordinate of a dimension [s], `time` if it has none."""
-    return np.asarray(dataset[name].values, float) if name in dataset.coords else time
 
 
 def _loaded(value):

@@ -11,8 +11,10 @@ from fmpy import read_model_description
 
 from ..files import BadFile
 from ..fmu import default_path
-from ..tables import text_of
+from ..tables import comma, headings_of, read_table
+from ..records import of_netcdf
 from ..units import UnitError, converted, headed, unit_of
+from ..values import first_line
 from . import stops
 from .run import Profiles, Run, Series, of_dataset, seen_lines, seen_rows
 from .units import guessed
@@ -45,18 +47,11 @@ def read(path, fmu=None):
 
 def _netcdf(path, fmu):
     try:
-        import xarray
-
-        with xarray.open_dataset(path, engine="h5netcdf") as dataset:
-            loaded = dataset.load()
-    except ImportError:
-        raise BadFile(f"{path}: NetCDF is read by xarray, h5netcdf and h5py: pip install 'wheelrail[records]'") from None
+        loaded = of_netcdf(path)
+    except ImportError as error:
+        raise BadFile(f"{path}: {error}") from None
     except Exception as error:  # Whatever the libraries below say of a file that is damaged or something else.
-        raise BadFile(
-            f"{path}: is no NetCDF file that xarray reads ({(str(error) or type(error).__name__).splitlines()[0]})"
-        ) from error
-    if "time" not in loaded.coords or loaded["time"].ndim != 1:
-        raise BadFile(f"{path}: has no dimension `time`; expected a record as wheelrail.records writes them")
+        raise BadFile(f"{path}: is no NetCDF file that xarray reads ({first_line(error)})") from error
     try:
         run = of_dataset(loaded)
     except BadFile as error:
@@ -87,17 +82,16 @@ def _vehicle_mass(fmu, about):
 def table(path):
     """Names and columns of a CSV: name to (unit or None, values), times in s. Columns may say `name [unit]`."""
     try:
-        rows = [line.strip() for line in text_of(path).split("\n")]
+        headings, head, lines = read_table(path)
     except BadFile as failure:
         raise BadFile(f"{failure}; expected a record in NetCDF or a CSV, such as that of `wheelrail simulate --out`") from None
-    numbered = [(k, line) for k, line in enumerate(rows, start=1) if line and not line.startswith("#")]
-    names = [headed(name.strip()) for name in numbered[0][1].split(",")] if numbered else []
+    names = [headed(heading) for heading in headings]
     if "time" not in dict(names):
-        raise BadFile(f"{path}:{numbered[0][0] if numbered else 1}: no column `time`; the first line names the columns")
-    if len(numbered) < 3:
-        raise BadFile(f"{path}: {len(numbered) - 1} lines of values; a curve needs two")
-    values = _values(path, numbered[1:], len(names))
-    columns = {name: (unit, column) for (name, unit), column in zip(names, values.T)}
+        raise BadFile(f"{path}:{head}: no column `time`; the first line names the columns")
+    rows = [[_number(path, line, *pair) for pair in zip(headings, cells)] for line, cells in lines]
+    if len(rows) < 2:
+        raise BadFile(f"{path}: {len(rows)} lines of values; a curve needs two")
+    columns = {name: (unit, column) for (name, unit), column in zip(names, np.array(rows).T)}
     columns["time"] = "s", _in(path, "time", columns["time"], "s")
     _ascending(path, columns["time"][1])
     return list(columns), columns
@@ -111,25 +105,12 @@ def _in(path, name, column, expected):
         raise BadFile(f"{path}: {error}") from None
 
 
-def _values(path, numbered, width):
-    """The numbers of lines of a CSV; flags, as FMI (true) or Python and pandas (True) write them, count 1 and 0."""
+def _number(path, line, name, cell):
+    """The number in a cell; flags, as FMI (true) or Python and pandas (True) write them, count 1 and 0, an empty one is unknown."""
     try:
-        values = np.loadtxt((line for _, line in numbered), delimiter=",", ndmin=2)
-        if values.shape[1] == width:
-            return values
+        return FLAGS[cell.lower()] if cell.lower() in FLAGS else float(cell or "nan")
     except ValueError:
-        pass
-    values = np.empty((len(numbered), width))
-    for row, (line, text) in zip(values, numbered):
-        cells = text.split(",")
-        if len(cells) != width:
-            raise BadFile(f"{path}:{line}: {len(cells)} entries, the first line has {width}")
-        for k, cell in enumerate(map(str.strip, cells)):
-            try:
-                row[k] = FLAGS[cell.lower()] if cell.lower() in FLAGS else float(cell or "nan")
-            except ValueError:
-                raise BadFile(f"{path}:{line}: {cell[:40]!r} in column {k + 1} is no number") from None
-    return values
+        raise BadFile(f"{path}:{line}: {name} is {cell[:40]!r}, no number{comma(cell)}") from None
 
 
 def _ascending(path, time):
@@ -149,7 +130,7 @@ def _description(fmu):
     try:
         return read_model_description(str(path), validate=False)
     except Exception as error:  # Whatever the libraries below say of what is no FMU.
-        raise BadFile(f"--fmu {path}: is no FMU: {(str(error) or type(error).__name__).splitlines()[0]}") from None
+        raise BadFile(f"--fmu {path}: is no FMU: {first_line(error)}") from None
 
 
 def _described(fmu):
@@ -157,8 +138,7 @@ def _described(fmu):
     description = _description(fmu)
     if description is None:
         return {}
-    unit = lambda v: v.unit or (v.declaredType.unit if v.declaredType is not None else None) or ""
-    return {v.name: (unit(v), v.description or "") for v in description.modelVariables}
+    return {v.name: (v.unit or "", v.description or "") for v in description.modelVariables}
 
 
 def _of_csv(path, columns, described):
@@ -191,9 +171,7 @@ def _directory(path):
     """The stops of a directory of results: every CSV with columns of a stop, the shortest first."""
     found = {}
     for file in sorted(path.glob("*.csv")):
-        with open(file, encoding="utf-8-sig", errors="replace") as opened:
-            header = [headed(name.strip())[0] for name in opened.readline().split(",")]
-        if stops.recognised(header):
+        if stops.recognised(headed(heading)[0] for heading in headings_of(file)):
             found[file.stem.removeprefix("train_").replace("_", " ")] = _stop(file, table(file)[1])
     if not found:
         raise BadFile(

@@ -68,6 +68,7 @@ def of_table(table):
 def charts(stop, among=()):
     """Charts of a stop, in units that fit the stops `among` which it is, too."""
     c, axles, time = stop.columns, stop.axles(), stop.columns["time"]
+    fitting = lambda start, unit: shown(unit, *(v for s in among or (stop,) for name, v in s.columns.items() if name.startswith(f"{start}_")))
     each = lambda name: {f"axle {k}": c[f"{name}_{k}"] for k in axles if f"{name}_{k}" in c}
     speeds = {"coach": c["speed"], **each("peripheral")}
     slide = {f"axle {k}": _slide(c[f"velocity_{k}"], c[f"peripheral_{k}"]) for k in axles if f"velocity_{k}" in c}
@@ -82,25 +83,17 @@ def charts(stop, among=()):
         ("Pressure in the cylinders", pressures, BAR, "Over ambient."),
         ("Adhesion used", used, Shown(""), "Braking force over load."),
         ("Friction of the rail that the axle meets", each("friction"), Shown(""), ""),
-        ("Hottest place of the contact", hot, CELSIUS, ""), ("Energy of friction so far", each("energy"), None, "Both wheels."),
-        ("Load on the rails", each("load"), None, "Both wheels."), ("Torque of the brake", each("torque"), None, ""),
-        ("Force of the couplers", couplers, None, "Tension positive."),
+        ("Hottest place of the contact", hot, CELSIUS, ""), ("Energy of friction so far", each("energy"), fitting("energy", "J"), "Both wheels."),
+        ("Load on the rails", each("load"), fitting("load", "N"), "Both wheels."),
+        ("Torque of the brake", each("torque"), fitting("torque", "N.m"), ""),
+        ("Force of the couplers", couplers, fitting("coupler", "N"), "Tension positive."),
     ]  # fmt: skip
     found = []
     for title, curves, unit, note in groups:
         curves = {name: v for name, v in curves.items() if np.isfinite(v).any()}
         if curves:
-            unit = unit or _unit(title, among or (stop,))
             found.append(chart(title, unit.label, _curves(time, curves, unit), note))
     return found
-
-
-def _unit(title, among):
-    """Unit of energies, torques and forces by the largest of all stops."""
-    start, unit = next(
-        kind for kind in (("energy", "J"), ("torque", "N.m"), ("load", "N"), ("coupler", "N")) if kind[0] in title.lower()
-    )
-    return shown(unit, *(v for stop in among for name, v in stop.columns.items() if name.startswith(start + "_")))
 
 
 def _curves(time, curves, unit):

@@ -35,12 +35,12 @@ def run_page(run, when):
     if run.damage:
         parts.append(html.section("damage", "Damage", _damage(run.damage), _damage_note(run.damage)))
     if rest or others:
-        parts.append(html.folded_section("rest", f"{len(rest) + len(others)} more figures over time", html.charts("more")))
+        parts.append(html.section("rest", f"{len(rest) + len(others)} more figures over time", html.charts("more"), folded=True))
     found = balance.of_run(run)
     if found:
-        parts.append(html.folded_section("balances", "Balances at the end", "".join(map(_balance, found))))
-    parts.append(html.folded_section("settings", "What was set", settings(run)))
-    parts.append(html.folded_section("quantities", f"{len(run.series)} quantities: range and meaning", quantities(run)))
+        parts.append(html.section("balances", "Balances at the end", "".join(map(_balance, found)), folded=True))
+    parts.append(html.section("settings", "What was set", settings(run), folded=True))
+    parts.append(html.section("quantities", f"{len(run.series)} quantities: range and meaning", quantities(run), folded=True))
     parts.append(html.BAR if patch else "")
     parts.append(f"<footer><p>{html.escape(CREDIT)}</p></footer>")
     below = damage_charts(run.damage) if run.damage else []
