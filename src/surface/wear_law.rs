@@ -24,16 +24,18 @@ pub struct WearLaw {
 
 impl From<&Config> for WearLaw {
     fn from(config: &Config) -> Self {
-        let Self { mild, severe, catastrophic, .. } = Self::R8T;
-        let [mild, severe, catastrophic] = [mild, severe, catastrophic].map(|wear| wear * config.damage.wear_factor);
-        Self { mild, severe, catastrophic, ..Self::R8T }
+        let source = Self::r8t();
+        let [mild, severe, catastrophic] =
+            [source.mild, source.severe, source.catastrophic].map(|wear| wear * config.damage.wear_factor);
+        Self { mild, severe, catastrophic, ..source }
     }
 }
 
 impl WearLaw {
     /// That of the source.
-    pub const R8T: Self =
-        Self { mild: 5.3e-9, severe: 55e-3, catastrophic: 61.9e-9, severe_from: 10.4e6, catastrophic_from: 77.2e6 };
+    pub fn r8t() -> Self {
+        Self { mild: 5.3e-9, severe: 55e-3, catastrophic: 61.9e-9, severe_from: 10.4e6, catastrophic_from: 77.2e6 }
+    }
 
     /// Mass per distance [kg/m] where the energy `t_gamma` \[N], Tγ, is dissipated per distance over the contact area
     /// `area` \[m²]. All three may be per metre of width.
