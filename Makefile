@@ -55,6 +55,8 @@
 
 PYTHON ?= python3
 CARGO ?= cargo
+# These count only where they are typed: environments have variables of such names, NAME that of the machine.
+$(foreach typed,NAME ALL CHECK COMPILE PROFILES FULL ACCEPT FORCE BEFORE,$(if $(filter environment,$(origin $(typed))),$(eval $(typed) :=)))
 # Libraries that are packed name no folders of whoever built them. The edit loop does without: the compiler would take its
 # parts for others wherever `cargo loop` is called by hand.
 WRAPPED := RUSTC_WRAPPER="$${RUSTC_WRAPPER:-$(CURDIR)/packaging/rustc-wrapper}"
@@ -175,14 +177,14 @@ train: $(FMU) $(INSTALLED)
 sweep: $(FMU) $(TRAIN)
 	$(PY) -m wheelrail sweep $(SCENARIO) --fmu $(FMU) --out $(OUT) $(if $(FORCE),--force) $(if $(SCHEDULER),--scheduler $(SCHEDULER)) $(ARGS)
 
-# The program of a study has its name. Locked wheels are two studies: the second one is made whatever the first one finds; a
-# limit that either of them finds broken ends both with an error.
+# The program of a study has its name. Locked wheels, unless ARGS chooses what is computed, are two studies: the second one is made
+# whatever the first one finds; a limit that either of them finds broken ends both with an error.
 PROGRAMS = $(wildcard examples/ex??_$(subst -,_,$(NAME)).py)
 PRESETS := --name locked_wheels_presets --presets all --by speed,brake --speeds 40,80,120,160,200 --steps 1e-3 --meshes 10
 study: $(FMU) $(INSTALLED) $(if $(filter published locked-wheels,$(NAME)),$(RECORDS))
 	@test -f "$(PROGRAMS)" || { echo 'make study NAME=name, one of: $(STUDIES)'; exit 1; }
 	$(PY) $(PROGRAMS) --fmu $(FMU) $(if $(filter eight-wheels,$(NAME)),,--out $(OUT)) $(ARGS); first=$$?; \
-	$(if $(filter locked-wheels,$(NAME)),$(PY) $(PROGRAMS) --fmu $(FMU) --out $(OUT) $(PRESETS) &&) exit $$first
+	$(if $(filter locked-wheels$(ARGS),$(NAME)),$(PY) $(PROGRAMS) --fmu $(FMU) --out $(OUT) $(PRESETS) &&) exit $$first
 
 figures:
 	@$(PYTHON) tools/figures.py $(if $(ALL),--all) $(if $(ACCEPT),--accept --reason "$(REASON)")

@@ -147,6 +147,18 @@ def test_every_study_stands_in_the_head_of_the_makefile_and_a_retired_target_say
         assert done.returncode and f"`make {now}`" in done.stderr, (target, done.stderr)
 
 
+def test_options_of_targets_count_where_they_are_typed_and_not_in_the_environment():
+    def planned(*words):
+        done = subprocess.run([*MAKE.split(), "-n", *words], cwd=ROOT, env=clean() | {"NAME": "HOST", "ALL": "1"}, capture_output=True, text=True)
+        return done.stdout
+
+    assert "--bench table" in planned("bench") and "--bench ordinary" in planned("bench", "NAME=ordinary")
+    assert "ex03_endurance" in planned("endurance") and "ex04_random_parameters" in planned("endurance", "NAME=parameters")
+    assert "wheelrail-all" not in planned("wheel") and "wheelrail-all" in planned("wheel", "ALL=1")
+    # Arguments of one's own choose one study of locked wheels.
+    assert [planned("study", "NAME=locked-wheels", *more).count("ex05_locked_wheels.py --fmu") for more in ([], ["ARGS=--jobs 1"])] == [2, 1]
+
+
 def test_a_command_in_a_page_is_seen_wherever_it_stands():
     page = "Run `make new` first, or\n`python -m wheelrail\nnew`.\n\n    cargo new --x    # or `pip install new`\n\n```sh\nmake other A=1  # x\n```\n"
     lines = of_markdown(page)
