@@ -1,8 +1,8 @@
 //! States, forces and motions of lines in an iterate, to go back to.
 
 use crate::axes::PerAxis;
-use crate::contact::line::contact_line::{ContactLine, Slide};
-use crate::contact::line::state::NodeStatus;
+use crate::contact::line::contact_line::ContactLine;
+use crate::contact::line::state::{NodeStatus, Slide};
 use nalgebra::DVector;
 
 /// States, forces and motions of a line in an iterate.

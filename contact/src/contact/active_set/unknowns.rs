@@ -33,7 +33,7 @@ pub(super) struct ShearUnknown {
     pub place: usize,
     /// Its direction, along and across.
     pub direction: [f64; 2],
-    /// Slip in this direction per force [m/s/(N/m)]: zero at a node that sticks, [`Slide::turn`](crate::contact::line::contact_line::Slide)
+    /// Slip in this direction per force [m/s/(N/m)]: zero at a node that sticks, [`Slide::turn`](crate::contact::line::state::Slide)
     /// at one whose friction turns.
     pub turn: f64,
 }

@@ -4,7 +4,8 @@
 //! ([`crate::contact::flexibility`]); the lateral motion of the hub and the spin add to the slip.
 
 use super::alone::Alone;
-use super::contact_line::{ContactLine, Slide};
+use super::contact_line::ContactLine;
+use super::state::Slide;
 
 impl ContactLine<'_> {
     /// Lateral force on the wheel at candidate `i` [N/m].

@@ -7,7 +7,7 @@ use super::history::LineHistory;
 use super::resize::Nodes;
 use super::rim::{RimAngleRow, RimFrame};
 use super::slopes::Slopes;
-use super::state::{GridState, NodeStatus};
+use super::state::{GridState, NodeStatus, Slide};
 use super::streamline::UpwindRows;
 use super::vectors::copy;
 use crate::axes::PerAxis;
@@ -106,15 +106,6 @@ impl Drawn {
     pub fn slip(&self, i: usize, shear: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|d| self.strength * (shear[d] - self.shear[i][d]))
     }
-}
-
-/// Slipping of a node along and across: its friction has a direction, and turns against the slip that turns.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Slide {
-    /// Direction of friction on the wheel, of length 1.
-    pub direction: [f64; 2],
-    /// Slip across this direction per force across it that the node loses when it turns by it [m/s/(N/m)].
-    pub turn: f64,
 }
 
 impl LineScratch {

@@ -45,6 +45,15 @@ impl NodeStatus {
     }
 }
 
+/// Slipping of a node along and across: its friction has a direction, and turns against the slip that turns.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Slide {
+    /// Direction of friction on the wheel, of length 1.
+    pub direction: [f64; 2],
+    /// Slip across this direction per force across it that the node loses when it turns by it [m/s/(N/m)].
+    pub turn: f64,
+}
+
 /// Contact patches: calls `f` with every maximal run of closed nodes as an index range, x ascending.
 pub fn for_each_patch(status: &[NodeStatus], mut f: impl FnMut(std::ops::Range<usize>)) {
     let mut start = None;
@@ -81,6 +90,8 @@ pub struct GridState {
     /// Friction that stuck candidates left unused one step ago [N/m], or the slip of those that slipped, negative [m/s]; empty: there
     /// is no such step.
     pub reserve: Vec<f64>,
+    /// Slides of the candidates one step ago; empty: there is no such step, or friction has no part across.
+    pub slid: Vec<Slide>,
     /// Gap at open nodes, zero elsewhere \[m].
     pub gap: Vec<f64>,
     /// Displacement of the wheel less that of the rail, along and across, and its history \[m].
@@ -123,13 +134,15 @@ impl GridState {
         let across = [self.lateral.len(), self.slip[1].len(), self.moved[1].len()];
         let mut of_nodes = self.surface.iter().chain([&self.forces]);
         let mut numbers = self.forces.iter().chain(&self.lateral).chain(self.slip.iter().flatten());
+        let mut slides = self.slid.iter().flat_map(|slide| [slide.direction[0], slide.direction[1], slide.turn]);
         let none_or = |length: usize, n: usize| length == 0 || length == n;
         along == [n; 5]
             && (across == [0; 3] || across == [n; 3])
             && of_nodes.all(|values| values.len() == components)
             && numbers.all(|value| value.is_finite())
+            && slides.all(|value| value.is_finite())
             && [self.size, self.share].iter().all(|size| *size > 0.0 && size.is_finite())
-            && none_or(self.reserve.len(), n)
+            && [self.reserve.len(), self.slid.len()].iter().all(|length| none_or(*length, n))
             && self.widened.iter().all(|widened| none_or(widened.len(), n))
             && self.pull.iter().all(|pull| none_or(pull.len(), n))
     }
@@ -141,6 +154,7 @@ impl GridState {
         self.yielded.clone_from(&other.yielded);
         self.gap.clone_from(&other.gap);
         self.reserve.clone_from(&other.reserve);
+        self.slid.clone_from(&other.slid);
         self.lateral.clone_from(&other.lateral);
         clone_each(&mut self.slip, &other.slip);
         clone_each(&mut self.moved, &other.moved);
