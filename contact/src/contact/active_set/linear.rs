@@ -42,6 +42,12 @@ impl LinearSolver {
             true => self.across.solve(lines, with, given),
         }
     }
+
+    /// Corrects the solution of the last linear problem for new directions of friction; false: that problem has none, or there is
+    /// no finite correction.
+    pub fn correct(&mut self, lines: &mut [ContactLine], with: (&Axes, &Unknowns)) -> bool {
+        lines.iter().any(|line| line.state.directions() > 1) && self.across.correct(lines, with).is_some()
+    }
 }
 
 /// Solution of linear problems in which what a line feels has C columns, and what it does N.
@@ -134,9 +140,9 @@ impl<const C: usize, const N: usize> Solver<C, N> {
         let small = Small::new(lines, axes, &unknowns.axes, std::mem::take(&mut self.memory));
         self.write(&small);
         let solution = self.solution().ok_or_else(singular)?;
-        let felt: Vec<Felt<C>> = (0..small.places.lines).map(|k| small.felt(k, &solution)).collect();
+        let felt: Vec<Felt<C>> = small.all_felt(&solution, 1.0).collect();
         let changes = &solution[small.places.motions()];
-        self.memory = SmallMemory { between: small.between, bodies: small.bodies };
+        self.memory = small.memory();
         for ((own, line), felt) in self.lines.iter().zip(&mut *lines).zip(&felt) {
             line.state.forces.fill(0.0);
             if given.is_none() {
@@ -154,6 +160,36 @@ impl<const C: usize, const N: usize> Solver<C, N> {
         Ok(())
     }
 
+    /// Corrects the solution of the last linear problem, whose factors it takes, for new directions of friction; `None`: it is left
+    /// as it is, since there is no finite correction.
+    #[inline(never)]
+    fn correct(&mut self, lines: &mut [ContactLine], (axes, unknowns): (&Axes, &Unknowns)) -> Option<()> {
+        let sought = &unknowns.axes;
+        let of_lines = self.lines.iter_mut().zip(&*lines);
+        let sums: Vec<[f64; N]> = of_lines.map(|(own, line)| own.correct(line, sought)).collect::<Option<_>>()?;
+        let small = Small::kept(lines, axes, sought, std::mem::take(&mut self.memory));
+        self.constants.fill(0.0);
+        for (k, sums) in sums.iter().enumerate() {
+            small.equations(k).for_each(|(sum, factor, at)| self.constants[at] += factor * sums[sum]);
+        }
+        let solution = self.substitute();
+        let felt: Vec<Felt<C>> = solution.iter().flat_map(|solution| small.all_felt(solution, 0.0)).collect();
+        let (motions, memory) = (small.places.motions(), small.memory());
+        self.memory = memory;
+        for ((own, line), felt) in self.lines.iter().zip(&mut *lines).zip(&felt) {
+            let mut corrections = own.corrections.iter();
+            own.take(felt, |i, normal, shear| {
+                let at = line.grid.component(i);
+                let corrected = corrections.next().copied().unwrap_or_default();
+                line.state.forces[at] += shear[0] + corrected[0];
+                line.state.forces[at + 1] += normal;
+                line.state.lateral[i] += shear[1] + corrected[1];
+            });
+        }
+        unknowns.move_by(&solution?[motions], lines, axes);
+        Some(())
+    }
+
     /// Writes the small system.
     #[inline(never)]
     fn write(&mut self, small: &Small) {
@@ -167,22 +203,11 @@ impl<const C: usize, const N: usize> Solver<C, N> {
             small.add_balance(axis, row(&mut self.rows, &mut self.constants, ON_PORTS + number));
         }
         for (k, (own, line)) in self.lines.iter_mut().zip(lines).enumerate() {
-            let (sums, share) = (own.sums(line, small.sought), line.problem.share);
-            let mut add = |sum: usize, factor: f64, at: usize| {
+            let sums = own.sums(line, small.sought);
+            for (sum, factor, at) in small.equations(k) {
                 small.add(k, &sums[sum], factor, row(&mut self.rows, &mut self.constants, at));
-            };
-            for point in 0..POINTS {
-                add(SHEAR.start + point, -share, 2 * point);
-                add(LOAD.start + point, -share, 2 * point + 1);
-            }
-            for number in (0..small.sought.len()).filter(|&number| !small.axes.holds(small.sought[number])) {
-                add(PULL.start + number, share, ON_PORTS + number);
-            }
-            for (direction, moments) in MOMENTS.into_iter().enumerate().take(small.places.directions) {
-                moments.enumerate().for_each(|(n, moment)| add(moment, -1.0, small.places.moment(k, direction) + n));
             }
             let at = small.places.angle(k);
-            add(TURN, -1.0, at);
             small.add_angle(k, row(&mut self.rows, &mut self.constants, at));
         }
     }
@@ -203,9 +228,14 @@ impl<const C: usize, const N: usize> Solver<C, N> {
             row.iter_mut().zip(&*units).for_each(|(value, unit)| *value *= unit);
         }
         system.set(size, rows.chunks_exact(size));
-        let mut solution: Vec<f64> = constants.iter().map(|constant| -constant).collect();
-        (system.factorise() && system.solve_with(&mut solution)).then(|| {
-            solution.iter_mut().zip(&*units).for_each(|(value, unit)| *value *= unit);
+        if system.factorise() { self.substitute() } else { None }
+    }
+
+    /// Solution of the small system with the factors at hand and the present constants; `None`: it is not finite.
+    fn substitute(&mut self) -> Option<Vec<f64>> {
+        let mut solution: Vec<f64> = self.constants.iter().map(|constant| -constant).collect();
+        self.system.solve_with(&mut solution).then(|| {
+            solution.iter_mut().zip(&self.units).for_each(|(value, unit)| *value *= unit);
             solution
         })
     }
@@ -221,17 +251,42 @@ fn row<'a>(rows: &'a mut [f64], constants: &'a mut [f64], at: usize) -> SmallRow
 
 impl<'a, 'b> Small<'a, 'b> {
     fn new(lines: &'a [ContactLine<'b>], axes: &'a Axes<'a>, sought: &'a [Axis], memory: SmallMemory) -> Self {
-        let felt = lines.iter().all(|line| line.problem.patch.is_some());
-        let directions = if felt { lines[0].state.directions() } else { 0 };
-        let SmallMemory { mut between, mut bodies } = memory;
+        let mut small = Self::kept(lines, axes, sought, memory);
+        let Self { places, between, bodies, .. } = &mut small;
         between.clear();
         bodies.clear();
-        let places = Numbering { lines: lines.len(), directions, motions: sought.len() };
+        let directions = places.directions;
         for (line, direction) in lines.iter().flat_map(|line| (0..directions).map(move |direction| (line, direction))) {
-            line.slips_by_moments(direction, [lines.len(), directions], &mut between);
+            line.slips_by_moments(direction, [lines.len(), directions], between);
         }
         bodies.extend(lines.iter().map(|line| line.body_rows(sought, axes.gains())));
+        small
+    }
+
+    /// The problem to which the `memory` belongs.
+    fn kept(lines: &'a [ContactLine<'b>], axes: &'a Axes<'a>, sought: &'a [Axis], memory: SmallMemory) -> Self {
+        let felt = lines.iter().all(|line| line.problem.patch.is_some());
+        let directions = if felt { lines[0].state.directions() } else { 0 };
+        let places = Numbering { lines: lines.len(), directions, motions: sought.len() };
+        let SmallMemory { between, bodies } = memory;
         Self { lines, axes, sought, places, between, bodies, points: lines[0].grid.points.nodes() }
+    }
+
+    fn memory(self) -> SmallMemory {
+        SmallMemory { between: self.between, bodies: self.bodies }
+    }
+
+    /// Sums over line `k` with their factors and the equations in which they stand.
+    fn equations(&self, k: usize) -> impl Iterator<Item = (usize, f64, usize)> {
+        let (places, share) = (self.places, self.lines[k].problem.share);
+        let ports =
+            move |point| [(SHEAR.start + point, -share, 2 * point), (LOAD.start + point, -share, 2 * point + 1)];
+        let acts = |number: &usize| !self.axes.holds(self.sought[*number]);
+        let pulls = (0..places.motions).filter(acts).map(move |number| (PULL.start + number, share, ON_PORTS + number));
+        let moment = move |direction, (n, moment)| (moment, -1.0, places.moment(k, direction) + n);
+        let directions = MOMENTS.into_iter().enumerate().take(places.directions);
+        let moments = directions.flat_map(move |(d, moments)| moments.enumerate().map(move |of| moment(d, of)));
+        (0..POINTS).flat_map(ports).chain(pulls).chain(moments).chain([(TURN, -1.0, places.angle(k))])
     }
 
     /// Adds `factor` times an affine function of what line `k` feels to an equation.
@@ -276,11 +331,16 @@ impl<'a, 'b> Small<'a, 'b> {
         }
     }
 
-    /// Numbers that line `k` feels in a solution.
-    fn felt<const C: usize>(&self, k: usize, solution: &[f64]) -> Felt<C> {
+    /// Numbers that the lines feel in a solution, with this one of the known column.
+    fn all_felt<const C: usize>(&self, solution: &[f64], known: f64) -> impl Iterator<Item = Felt<C>> {
+        (0..self.places.lines).map(move |k| self.felt(k, solution, known))
+    }
+
+    /// Numbers that line `k` feels in a solution, with this one of the known column.
+    fn felt<const C: usize>(&self, k: usize, solution: &[f64], known: f64) -> Felt<C> {
         let (places, mut felt) = (self.places, [0.0; C]);
         let (causes, angle) = (&solution[..places.moments().start], solution[places.angle(k)]);
-        felt[KNOWN] = 1.0;
+        felt[KNOWN] = known;
         felt[BODIES].iter_mut().zip(&self.bodies[k]).for_each(|(felt, by)| *felt = product(causes, by));
         felt[OPENED].iter_mut().zip(self.points).for_each(|(opened, x)| *opened -= x * angle);
         felt[ANGLE] = angle;

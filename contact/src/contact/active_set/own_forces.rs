@@ -60,14 +60,14 @@ type PressureColumns = [f64; PRESSED];
 pub struct OwnForces<const C: usize, const N: usize> {
     /// Factors of the flexibility of closed nodes, which belong to [`Self::kept`], and of the stuck ones.
     pressures: DenseSystem,
-    shear: DenseSystem,
+    pub(super) shear: DenseSystem,
     kept: Option<PressureKey>,
     /// Normal forces at the closed nodes, and the known ones among them.
     pressed: Vec<[PressureColumns; 1]>,
     known: Vec<f64>,
     /// Shear along and across over normal forces at the closed nodes where they slip \[1], and further shear at them.
     friction: Vec<[f64; 2]>,
-    unknown: Vec<ShearUnknown>,
+    pub(super) unknown: Vec<ShearUnknown>,
     /// From the first to the last of the closed nodes that slip.
     sliding: Range<usize>,
     sheared: Vec<[Felt<C>; 1]>,
@@ -80,6 +80,9 @@ pub struct OwnForces<const C: usize, const N: usize> {
     by_unknown: [Vec<f64>; 2],
     /// Factors of the pressures and of the shear in the sums.
     factors: [Vec<[f64; N]>; 2],
+    /// Corrections of the unknown shear, and of the shear along and across at [`Self::nodes`], see [`super::corrections`] [N/m].
+    pub(super) corrected: Vec<f64>,
+    pub(super) corrections: Vec<[f64; 2]>,
 }
 
 /// Closed nodes and flexibility of a factor of pressures, and of their answer to what bodies and motions open.
@@ -348,7 +351,7 @@ impl<const C: usize, const N: usize> OwnForces<C, N> {
 }
 
 /// Adds the factors of a normal force and of shear along and across at a candidate in the sums, times these.
-fn add_factors<const N: usize>(
+pub(super) fn add_factors<const N: usize>(
     line: &ContactLine,
     (i, pulls): (usize, &[(f64, [f64; 2])]),
     (normal, [along, across]): (f64, [f64; 2]),

@@ -47,7 +47,11 @@ const MOMENT_TOLERANCE: f64 = 2e-8;
 const MOST_BALANCING: usize = 4;
 /// Distance of friction from its direction over the largest of the line, from which directions go on turning, and which is none \[1].
 const TELLING: f64 = 1e-3;
-const MISSED: f64 = 1e-9;
+const MISSED: f64 = 1e-10;
+/// Such a distance from which solutions are corrected for new directions, and its part that a correction leaves at most, so that
+/// another one follows \[1].
+const TURNING: f64 = 0.05;
+const FALLING: f64 = 0.1;
 /// Way of the material in a step, over the distance of the nodes, at which it stands \[1].
 const STANDS: f64 = 1e-9;
 
@@ -199,7 +203,7 @@ impl<'a> ActiveSet<'a> {
     /// Finds the states of all nodes at the friction coefficients of their slips; returns the iterations until states were
     /// settled at first.
     pub fn find_states(&mut self, mut laws: Option<&mut FollowedLaws>, most: usize) -> Result<usize, ContactError> {
-        let (mut settled, mut first, mut decided, mut balancing) = (false, true, 0, 0);
+        let (mut settled, mut first, mut decided, mut balancing, mut last) = (false, true, 0, 0, f64::INFINITY);
         // Iterations at the coefficients of settled states.
         let mut iteration = 0;
         while iteration < most {
@@ -210,15 +214,19 @@ impl<'a> ActiveSet<'a> {
                     states::found_anew(line);
                 }
             }
-            self.solve_linear()?;
+            if !(last < TURNING && self.correct()) {
+                self.solve_linear()?;
+            }
             let turned =
                 self.lines.iter().any(|line| (line.frame.rim_angle - line.iterate.rim.value).abs() > ANGLE_TOLERANCE);
-            let (changed, missed) = self.update_states(iteration);
-            let changed = changed || missed > TELLING;
+            let (states_changed, missed) = self.update_states(iteration);
+            let changed = states_changed || missed > TELLING;
             // Once states and edges are settled, only motions and rim angle are refined: smooth functions of the data.
             decided += usize::from(first);
             settled = !changed && (settled || self.edges_settled() || self.stands());
             first = first && !settled;
+            let falls = missed < FALLING * last || missed <= MISSED;
+            last = if !states_changed && (settled || changed) && !turned && falls { missed } else { f64::INFINITY };
             let refined = settled && missed <= MISSED && !turned && self.lines.iter().all(states::sticks);
             let progress = match settled {
                 true if refined => Progress::Refined,
@@ -233,7 +241,7 @@ impl<'a> ActiveSet<'a> {
                     if balancing == MOST_BALANCING || self.turns_balance() {
                         return Ok(decided);
                     }
-                    balancing += 1;
+                    (balancing, last) = (balancing + 1, f64::INFINITY);
                 }
                 _ => {}
             }
@@ -255,11 +263,27 @@ impl<'a> ActiveSet<'a> {
         lines.iter_mut().for_each(ContactLine::update_rim);
         solver.solve(lines, (axes, unknowns), None)?;
         *solved += 1;
-        exchange::forces(lines);
-        for line in lines {
-            line.evaluate(axes.sought_accelerations(line.traction.rigid));
-        }
+        self.evaluate();
         Ok(())
+    }
+
+    /// Corrects the solution of the linear problem of these states for new directions of friction; whether it could.
+    fn correct(&mut self) -> bool {
+        let Self { lines, axes, memory, .. } = self;
+        let drawn = lines.iter().any(|line| line.iterate.drawn.is_some());
+        if drawn || !memory.solver.correct(lines, (axes, &memory.unknowns)) {
+            return false;
+        }
+        self.evaluate();
+        true
+    }
+
+    /// Displacements, slips and gaps of the present forces and motions.
+    fn evaluate(&mut self) {
+        exchange::forces(&mut self.lines);
+        for line in &mut self.lines {
+            line.evaluate(self.axes.sought_accelerations(line.traction.rigid));
+        }
     }
 
     /// Takes new states of nodes and brakes; returns whether any changed, and how far friction is from its directions \[1].
