@@ -201,6 +201,43 @@ fn forces(spaces: &HalfSpaces, lines: &Lines) -> [f64; 3] {
     [sum(&|it| it.resultant.travel), sum(&|it| it.resultant.lateral), sum(&|it| it.spin_moment)]
 }
 
+/// Largest part across friction of the slip of a node, over the largest slip of all, and number of nodes that slip.
+fn askew(lines: &Lines) -> (f64, usize) {
+    let (mut askew, mut slips, mut most) = (0.0_f64, 0, 0.0_f64);
+    for grid in lines.iter().map(|line| &line.grid) {
+        let (n, nodes) = (grid.status.len(), grid.forces.len() / 2);
+        for i in (0..n).filter(|&i| grid.status[i].friction_direction() != 0.0) {
+            let (slip, shear) = ([grid.slip[0][i], grid.slip[1][i]], [grid.forces[nodes - n + 2 * i], grid.lateral[i]]);
+            let size = shear[0].hypot(shear[1]);
+            askew = askew.max((slip[0] * shear[1] - slip[1] * shear[0]).abs() / size);
+            // Friction on the wheel is against its slip.
+            assert!(slip[0] * shear[0] + slip[1] * shear[1] < 1e-9 * size * SPEED);
+            (slips, most) = (slips + 1, most.max(slip[0].hypot(slip[1])));
+        }
+    }
+    (askew / most, slips)
+}
+
+/// Creepage along is held, creepage across a triangle, spin a sine: each step turns the friction of all nodes that slip.
+#[test]
+fn friction_of_a_swaying_wheel_opposes_its_slip_after_less_than_four_linear_problems_a_step() {
+    let spaces = HalfSpaces::sideways_on_nodes(1.0, 7, 10);
+    let (mut seen, mut state, mut worst, mut least) = (Count::default(), spaces.start(), 0.0_f64, usize::MAX);
+    for k in 0..80 {
+        let phase = f64::from(k) / 40.0;
+        let across = 2e-3 * (1.0 - 4.0 * (phase.rem_euclid(1.0) - 0.5).abs());
+        let motion = held(&spaces, [SPEED * 1.0005, SPEED * 0.9995, SPEED * across]);
+        let spin = 0.3 * (std::f64::consts::TAU * phase).sin();
+        state = seen.solve(&spaces, (LOAD, spin, formula(1e-3, k == 0)), motion, &state).unwrap();
+        let (askew, slips) = askew(&state);
+        (worst, least) = (worst.max(askew), least.min(slips));
+    }
+    let problems = seen.newton as f64 / seen.steps as f64;
+    common::figure("sideways.swaying", &[problems]);
+    println!("{problems:.2} linear problems a step, slip across friction {worst:.1e}, at least {least} nodes slip");
+    assert!(worst < 1e-8 && least > 20 && problems < 3.8, "{problems} {worst:e}");
+}
+
 #[test]
 fn mirror_images_have_mirrored_forces() {
     let spaces = HalfSpaces::sideways(1.5, 7);
