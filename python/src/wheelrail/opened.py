@@ -109,7 +109,7 @@ class Fmu(Unique):
             raise Refused(self.retired[name])
         if name not in self.variables:
             close = difflib.get_close_matches(name, self.variables, n=1)
-            raise Refused(f"the FMU has no variable {name}" + "".join(f"; did you mean {other}?" for other in close))
+            raise Refused(f"the FMU has no variable {name or repr(name)}" + "".join(f"; did you mean {other}?" for other in close))
         return self.variables[name]
 
     def settings(self, values: Mapping[str, object], change: str | None = None) -> list[tuple[ScalarVariable, float | int | str]]:
@@ -153,6 +153,15 @@ class Fmu(Unique):
     def close(self) -> None:
         """Removes what was extracted: wheels that are open step on, and no other is opened."""
         self._folder.remove()
+
+
+def fmu_of_wheel(path: str | os.PathLike, instead: str) -> Fmu:
+    """An FMU that a command was given, opened if it is that of a wheel; `instead` as of `fmu_file`."""
+    fmu = Fmu(fmu_file(path, instead))
+    if "contact.force_x" not in fmu.variables:
+        fmu.close()
+        raise Refused(f"{path} is an FMU, but not that of a wheel")
+    return fmu
 
 
 class Instance(Unique):

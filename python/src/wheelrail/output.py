@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 import logging
 import os
 import secrets
@@ -10,7 +11,10 @@ import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryFile
 from threading import Lock
+
+from .tables import BadFile
 
 log = logging.getLogger(__name__)
 _lock, _owned = Lock(), set()
@@ -46,6 +50,18 @@ def fresh(path: str | Path) -> Iterator[Path]:
             log.info("written: %s", path)
         finally:
             beside.unlink(missing_ok=True)
+
+
+def check_place(path: Path, option: str) -> None:
+    """Refuses, before anything is computed, the path that an option of a command names, if no file can be written there."""
+    place, full = Path(os.path.realpath(path)), (errno.ENOSPC, errno.EDQUOT)
+    try:
+        if place.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "it is a folder: name a file in it")
+        if not place.exists() or place.is_file():
+            TemporaryFile(dir=next(above for above in place.parents if above.exists())).close()
+    except OSError as error:
+        raise (Unwritten(path, error.strerror) if error.errno in full else BadFile(f"{option}: {path} cannot be written: {error.strerror}")) from None
 
 
 def write(path: str | Path, content: str | bytes | memoryview) -> None:

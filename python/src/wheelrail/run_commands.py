@@ -17,8 +17,8 @@ import numpy as np
 from . import operating, runs
 from .files import Real, Text, read_csv
 from .fmu import Fmu, default_path
-from .opened import fmu_file
-from .output import write, write_columns
+from .opened import fmu_of_wheel
+from .output import check_place, write, write_columns
 from .records import library
 from .samples import LATEST
 from .tables import BadFile
@@ -69,7 +69,7 @@ def add_command(commands: Any) -> None:
 def run(options: Namespace) -> None:
     """Runs one of the commands. What is refused before anything is computed is a wrong argument."""
     try:
-        with Fmu(fmu_file(options.fmu, " or with --fmu")) as fmu:
+        with fmu_of_wheel(options.fmu, " or with --fmu") as fmu:
             (simulate if options.command == "simulate" else steady)(options, fmu)
     except (Refused, ValueError, ImportError) as error:
         if hasattr(error, "run"):
@@ -80,7 +80,7 @@ def run(options: Namespace) -> None:
 def setting(text: str) -> tuple[str, object]:
     """Name and value of NAME=VALUE: a number where it is one, else the text."""
     name, sign, value = map(str.strip, text.partition("="))
-    if not sign:
+    if not (name and sign):
         raise ArgumentTypeError(f"{text!r}: expected NAME=VALUE, such as drive.load=8e4")
     try:
         return name, float(value)
@@ -153,12 +153,14 @@ def simulate(options: Namespace, fmu: Fmu) -> None:
 
 
 def _apart(options):
-    """Refuses two files in one place: results over the scenario, or under the profile of the wheel."""
+    """Refuses two files in one place, results over the scenario, or under the profile of the wheel, and places for none."""
     seen = {}
     for option in ("--out", "--scenario", "--columns", "--wheel-profile"):
-        path = getattr(options, option[2:].replace("-", "_"))
+        path = getattr(options, option[2:].replace("-", "_"), None)
         if path and (first := seen.setdefault(path.resolve(), option)) != option:
             raise BadFile(f"{first} and {option} are one file, {path}; give each a path of its own")
+        if path and option != "--scenario":
+            check_place(path, option)
 
 
 def frame(record: xarray.Dataset, names: list[str]) -> pandas.DataFrame:
@@ -203,6 +205,7 @@ def shown(fmu: Fmu, name: str, value: float) -> tuple[str, str]:
 
 def steady(options: Namespace, fmu: Fmu) -> None:
     """A curve over the creepage to a CSV, or as a table."""
+    _apart(options)
     parameters, inputs = given(options, fmu)
     ended = None
     try:
