@@ -282,8 +282,8 @@ with Fmu(PACKED) as fmu:
 print(*heard, sep="\\n")
 """,
     "Ctrl-C at any line of a restore": """
-import wheelrail.instances, wheelrail.opened, wheelrail.records
-FILES = {module.__file__ for module in (wheelrail.instances, wheelrail.opened, wheelrail.records)}
+import wheelrail.instances, wheelrail.fmu, wheelrail.records
+FILES = {module.__file__ for module in (wheelrail.instances, wheelrail.fmu, wheelrail.records)}
 
 def interrupted(call, line):
     "True if Ctrl-C came before the line of that number of the call."

@@ -15,9 +15,8 @@ from . import scenario as scenarios
 from .compare import Died
 from .controllers import ControllerFailed
 from .files import BadFile, json_schema
-from .fmu import Fmu, Refused, default_path
+from .fmu import Fmu, Refused, default_path, fmu_of_wheel
 from .interrupt import told_to_end
-from .opened import fmu_of_wheel
 from .output import fresh
 from .page import command as page
 from .results import directory, spare

@@ -16,8 +16,7 @@ import numpy as np
 
 from . import operating, runs
 from .files import Real, Text, read_csv
-from .fmu import Fmu, default_path
-from .opened import fmu_of_wheel
+from .fmu import Fmu, default_path, fmu_of_wheel
 from .output import check_place, write, write_columns
 from .records import library
 from .samples import LATEST
