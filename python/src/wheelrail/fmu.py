@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from collections.abc import Iterable, Mapping
 from itertools import count
 from math import isclose
 from numbers import Real
 from pathlib import Path
-from threading import Lock
-from typing import Any, Self
+from typing import Any
 from weakref import finalize
 from xml.etree import ElementTree
 
@@ -21,23 +19,13 @@ from .calls import Calls
 from .folder import TemporaryFolder
 from .instances import loaded, scalars
 from .records import Recorder
+from .tables import nearest
 from .times import after
 from .units import named
 from .values import Refused, Unique, check_names, first_line, kind, plain, saved_state, short, to_fmu
 
 ROUNDING = 1e-14  # relative difference of times that is rounding of one sum
 _numbers = count(1)
-_reading = Lock()  # lxml makes one schema at a time: what its library sets up with the first one is not locked
-
-
-def _alone():
-    """In a process that was forked there is no other thread which could hold the lock."""
-    global _reading
-    _reading = Lock()
-
-
-if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_alone)
 
 
 def default_path() -> Path:
@@ -90,8 +78,8 @@ class Fmu(Unique):
         self._folder = _unpacked(fmu_file(path))
         try:
             self.directory = str(self._folder.path)
-            with _reading:
-                self.description = fmpy.read_model_description(self.directory)
+            # Without a check against the schema of FMI, which takes as long as all else here: who packs an FMU makes it.
+            self.description = fmpy.read_model_description(self.directory, validate=False)
         except Exception as failure:  # whatever XML and fmpy say of what is no description
             self._folder.remove()
             raise _no_fmu(path, failure) from failure
@@ -109,8 +97,7 @@ class Fmu(Unique):
         if name in self.retired:
             raise Refused(self.retired[name])
         if name not in self.variables:
-            close = difflib.get_close_matches(name, self.variables, n=1)
-            raise Refused(f"the FMU has no variable {name or repr(name)}" + "".join(f"; did you mean {other}?" for other in close))
+            raise Refused(f"the FMU has no variable {name or repr(name)}{nearest(name, self.variables)}")
         return self.variables[name]
 
     def settings(self, values: Mapping[str, object], change: str | None = None) -> list[tuple[ScalarVariable, float | int | str]]:
@@ -144,12 +131,6 @@ class Fmu(Unique):
             raise Refused(f"lines have no {quantity!r}; they have {', '.join(self.of_lines())}")
         known = self.profiles()
         raise Refused(f"the FMU has no profile {quantity!r}; it has {', '.join(known) or 'none, being built without'}")
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def close(self) -> None:
         """Removes what was extracted: wheels that are open step on, and no other is opened."""
@@ -229,12 +210,6 @@ class Wheel(Unique):
     def _begin(self):
         """Ends initialization, after which the wheel steps."""
         self._calls(self.slave.exitInitializationMode)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def close(self) -> None:
         """Terminates and frees the instance, when calls of other threads have come to their ends; nothing happens if that has been

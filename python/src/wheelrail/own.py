@@ -6,7 +6,6 @@ machines need no copy of them.
 
 import ast
 import builtins
-import difflib
 import hashlib
 import importlib
 import importlib.util
@@ -20,7 +19,7 @@ from dataclasses import dataclass
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
 
-from .files import BadFile
+from .tables import BadFile, nearest
 from .warn import PACKAGE
 
 FORM = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
@@ -41,9 +40,8 @@ class OwnClass:
         known = vars(_module(module, self.files))
         if wanted not in known:
             classes = [name for name, value in known.items() if inspect.isclass(value)]
-            close = difflib.get_close_matches(wanted, classes, n=1)
-            hint = f"; did you mean {close[0]}?" if close else ""
-            raise BadFile(f"{self.where}: {Path(self.files[0][0]).name if self.files else module} has no class {wanted}{hint}")
+            file = Path(self.files[0][0]).name if self.files else module
+            raise BadFile(f"{self.where}: {file} has no class {wanted}{nearest(wanted, classes)}")
         if not inspect.isclass(known[wanted]):
             raise BadFile(f"{self.where}: {self.name} is a {type(known[wanted]).__name__}, not a class")
         return known[wanted]
@@ -161,19 +159,6 @@ def _imported(name):
     return importlib.import_module(name)
 
 
-def _package(name, folder):
-    """Loads the package of a name from a folder, if it is there and nowhere else."""
-    file = folder / name / "__init__.py"
-    if file.is_file() and not _installed(name):
-        spec = importlib.util.spec_from_file_location(name, file)
-        sys.modules[name] = importlib.util.module_from_spec(spec)
-        try:
-            spec.loader.exec_module(sys.modules[name])
-        except BaseException:
-            del sys.modules[name]
-            raise
-
-
 def _made(files):
     """A module of a text, with those beside it that it imports: nobody else finds these, nor do they take the place of others."""
     texts, made = {Path(path).stem: (path, text) for path, text in reversed(files)}, {}
@@ -195,8 +180,6 @@ def _made(files):
     def import_one(name, names=None, own=None, wanted=(), level=0):
         if not level and name in texts:
             return module(name)
-        if not level:
-            _package(name.partition(".")[0], Path(files[0][0]).parent)
         return builtins.__import__(name, names, own, wanted, level)
 
     return module(Path(files[0][0]).stem)
