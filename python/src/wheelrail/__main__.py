@@ -10,16 +10,14 @@ import time
 from contextlib import ExitStack, contextmanager, redirect_stderr, redirect_stdout, suppress
 from pathlib import Path
 
-from . import __version__, analysis, completion, damage, paraview, patch_table, run_commands
+from . import __version__, analysis, completion, damage, page, paraview, patch_table, run_commands
 from . import scenario as scenarios
 from .compare import Died
 from .controllers import ControllerFailed
 from .files import BadFile, json_schema
 from .fmu import Fmu, Refused, default_path, fmu_of_wheel
 from .interrupt import told_to_end
-from .output import fresh
-from .page import command as page
-from .results import directory, spare
+from .output import fresh, results_folder, spare
 from .sweep_command import SweepStopped
 from .sweep_command import run as sweep
 from .train import TrackEnds
@@ -29,7 +27,7 @@ from .wheelset import patches_of
 
 # Commands that need no scenario, and what runs them.
 WITHOUT = dict.fromkeys(analysis.COMMANDS, analysis.run) | {
-    "simulate": run_commands.run, "steady": run_commands.run, "report": page.run, "damage": damage.run, "export": paraview.run,
+    "simulate": run_commands.run, "steady": run_commands.run, "report": page.command, "damage": damage.run, "export": paraview.run,
     "patch": patch_table.run,
     "schema": lambda options: print(json.dumps(json_schema(scenarios.SCHEMAS[options.kind]), indent=2)),
     "completion": lambda options: print(completion.script(parser(), options.shell), end=""),
@@ -113,7 +111,7 @@ def train(options, scenario):
     from .plots import draw_stops
     from .progress import Progress
 
-    out = directory(options.out, scenario)
+    out = results_folder(options.out, scenario.paths["scenario"].stem)
     path_of = {name: out / f"train_{name.lower().replace(' ', '_')}.csv" for name in compare.variants(scenario)}
     listed = [*path_of.values(), out / "train.png", out / "train.html", out / "train_columns.csv"]
     spare(listed, options.force)
@@ -164,11 +162,7 @@ def packages(options, scenario):
     for name, value in (("--step", options.step), ("--stop", options.stop)):
         if not (value > 0.0 and math.isfinite(value)):
             raise BadFile(f"{name} = {value:g} s is no time above zero")
-    try:
-        options.out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise BadFile(f"--out {options.out}: {error.strerror}") from None
-    coach = options.out / "coach.fmu"
+    coach = results_folder(options.out, "") / "coach.fmu"
     texts = [path for path in map(Path, ("LICENSE-MIT", "LICENSE-APACHE", "docs/LICENSE-THIRD-PARTY")) if path.is_file()]
     with Fmu(options.fmu) as wheel:
         version = wheel.description.fmiVersion[0]

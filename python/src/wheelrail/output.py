@@ -52,16 +52,41 @@ def fresh(path: str | Path) -> Iterator[Path]:
             beside.unlink(missing_ok=True)
 
 
+@contextmanager
+def asked(path: Path, problem: str) -> Iterator[None]:
+    """What the system refuses meanwhile of a path that a user has named is a wrong argument, unless the disk is full."""
+    try:
+        yield
+    except OSError as error:
+        full = error.errno in (errno.ENOSPC, errno.EDQUOT)
+        raise (Unwritten(path, error.strerror) if full else BadFile(f"{problem}: {error.strerror}")) from None
+
+
 def check_place(path: Path, option: str) -> None:
     """Refuses, before anything is computed, the path that an option of a command names, if no file can be written there."""
-    place, full = Path(os.path.realpath(path)), (errno.ENOSPC, errno.EDQUOT)
-    try:
+    place = Path(os.path.realpath(path))
+    with asked(path, f"{option}: {path} cannot be written"):
         if place.is_dir():
             raise IsADirectoryError(errno.EISDIR, "it is a folder: name a file in it")
         if not place.exists() or place.is_file():
             TemporaryFile(dir=next(above for above in place.parents if above.exists())).close()
-    except OSError as error:
-        raise (Unwritten(path, error.strerror) if error.errno in full else BadFile(f"{option}: {path} cannot be written: {error.strerror}")) from None
+
+
+def results_folder(out: Path, name: str) -> Path:
+    """The folder of a name below `--out`, made if it is not there, in which files can be written."""
+    path = out / name
+    with asked(path, f"--out: nothing can be written to {path}"):
+        path.mkdir(parents=True, exist_ok=True)
+        TemporaryFile(dir=path).close()
+    return path
+
+
+def spare(paths: list[Path], force: bool) -> None:
+    """Refuses to overwrite files that are there, unless `force`."""
+    there = [path for path in paths if path.exists()]
+    if there and not force:
+        names = ", ".join(path.name for path in there)
+        raise BadFile(f"{there[0].parent} holds results already ({names}): add --force to overwrite them, or take another --out")
 
 
 def write(path: str | Path, content: str | bytes | memoryview) -> None:

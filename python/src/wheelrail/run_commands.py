@@ -129,13 +129,8 @@ def simulate(options: Namespace, fmu: Fmu) -> None:
     inputs |= scenario(fmu, options.scenario) if options.scenario else {}
     names = [name.strip() for name in options.outputs.split(",")]
     recorded = [*(name.partition("[")[0] for name in names), *SUMMARY]
-    began, ended = perf_counter(), None
-    try:
-        record = runs.simulate(parameters, inputs, stop=options.stop, step=options.step, outputs=recorded, every=options.every, fmu=fmu)
-    except (Refused, KeyboardInterrupt) as failure:
-        if not hasattr(failure, "run"):
-            raise
-        record, ended = failure.run, failure
+    began = perf_counter()
+    record, ended = _ran(runs.simulate, parameters, inputs, stop=options.stop, step=options.step, outputs=recorded, every=options.every, fmu=fmu)
     wall = perf_counter() - began
     rows = frame(record, names)
     if options.columns:
@@ -149,6 +144,16 @@ def simulate(options: Namespace, fmu: Fmu) -> None:
             print(f"{path} holds what was computed up to {float(record.time[-1])} s", file=sys.stderr)
         raise ended
     print("\n".join(summary(fmu, record, wall)), file=sys.stderr)
+
+
+def _ran(function, *arguments, **named):
+    """What a run gives, and None; or what it gave until something ended it, and that."""
+    try:
+        return function(*arguments, **named), None
+    except (Refused, KeyboardInterrupt) as failure:
+        if not hasattr(failure, "run"):
+            raise
+        return failure.run, failure
 
 
 def _apart(options):
@@ -206,13 +211,7 @@ def steady(options: Namespace, fmu: Fmu) -> None:
     """A curve over the creepage to a CSV, or as a table."""
     _apart(options)
     parameters, inputs = given(options, fmu)
-    ended = None
-    try:
-        curve = operating.steady(parameters, inputs, creepage=options.creepage, velocity=options.velocity, fmu=fmu)
-    except (Refused, KeyboardInterrupt) as failure:
-        if not hasattr(failure, "run"):
-            raise
-        curve, ended = failure.run, failure
+    curve, ended = _ran(operating.steady, parameters, inputs, creepage=options.creepage, velocity=options.velocity, fmu=fmu)
     rows = curve.to_dataframe()
     text = table(fmu, rows) if options.table else rows.to_csv(index=False, lineterminator="\n")
     write(options.out, text) if options.out else sys.stdout.write(text)
