@@ -159,6 +159,19 @@ def _imported(name):
     return importlib.import_module(name)
 
 
+def _package(name, folder):
+    """Loads the package of a name from a folder, if it is there and nowhere else."""
+    file = folder / name / "__init__.py"
+    if file.is_file() and not _installed(name):
+        spec = importlib.util.spec_from_file_location(name, file)
+        sys.modules[name] = importlib.util.module_from_spec(spec)
+        try:
+            spec.loader.exec_module(sys.modules[name])
+        except BaseException:
+            del sys.modules[name]
+            raise
+
+
 def _made(files):
     """A module of a text, with those beside it that it imports: nobody else finds these, nor do they take the place of others."""
     texts, made = {Path(path).stem: (path, text) for path, text in reversed(files)}, {}
@@ -180,6 +193,8 @@ def _made(files):
     def import_one(name, names=None, own=None, wanted=(), level=0):
         if not level and name in texts:
             return module(name)
+        if not level:
+            _package(name.partition(".")[0], Path(files[0][0]).parent)
         return builtins.__import__(name, names, own, wanted, level)
 
     return module(Path(files[0][0]).stem)
