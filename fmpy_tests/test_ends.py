@@ -1,6 +1,8 @@
 """How commands and example 5 end that are interrupted, whose reader has gone, or whose files cannot be written: a line and an exit code."""
 
+import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -10,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import wheelrail
+from test_own_controllers import TRAIN
 from wheelrail.__main__ import main
 
 COMMAND = [sys.executable, "-m", "wheelrail"]
@@ -24,6 +27,24 @@ def test_a_reader_that_has_gone_leaves_no_traceback(command, tmp_path):
     done = subprocess.run([*COMMAND, *command], cwd=tmp_path, stdout=writing, stderr=subprocess.PIPE, text=True)
     os.close(writing)
     assert done.returncode == 1 and done.stderr == "", done.stderr
+
+
+def test_what_was_computed_is_written_although_nobody_reads_what_is_printed(tmp_path):
+    shutil.copytree(TRAIN, tmp_path / "train")
+    values = json.loads((TRAIN / "low_adhesion.json").read_text()) | {"speed": 0.5, "step": 0.01, "hold": 0.0}
+    (tmp_path / "train" / "mine.json").write_text(json.dumps(values))
+    reading, writing = os.pipe()
+    os.close(reading)
+    line = ["train", "train/mine.json", "--rigid"]
+    done = subprocess.run([*COMMAND, *line], cwd=tmp_path, stdout=writing, stderr=subprocess.PIPE, text=True, env=os.environ | {"PYTHONUNBUFFERED": "1"})
+    os.close(writing)
+    assert done.returncode == 1 and (tmp_path / "results" / "mine" / "train_dry.csv").is_file(), done.stderr
+
+
+def test_standard_output_by_its_name_is_a_place_for_results(packed, tmp_path):
+    line = [*COMMAND, "simulate", "--stop", "0.002", "--outputs", "wheel.distance", "--out", "/dev/stdout", "--fmu", packed.resolve()]
+    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0 and done.stdout.splitlines()[0] == "time,wheel.distance" and len(done.stdout.splitlines()) == 4, done.stderr
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="signals of Unix")

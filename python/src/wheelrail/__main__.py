@@ -124,9 +124,6 @@ def train(options, scenario):
 
         stops = compare.side_by_side(scenario, None if options.rigid else options.fmu, progress, endless)
     if stops:
-        print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}")
-        print(f"wheelsets: {wheels(options, scenario)}\n")
-        print("\n".join(report.lines({name: report.figures(table) for name, (table, _) in stops.items()})))
         written = [out / "train_columns.csv", out / "train.png", *(path_of[name] for name in stops)]
         written += [out / "train.html"] if page.drawable() else []
         with ExitStack() as together:  # nothing takes the place of old results before all is written
@@ -138,6 +135,10 @@ def train(options, scenario):
             page.of_train(new.get(out / "train.html"), stops, scenario)
         for old in set(listed) - set(written):
             old.unlink(missing_ok=True)
+        # Last, since who reads it may have gone.
+        print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}")
+        print(f"wheelsets: {wheels(options, scenario)}\n")
+        print("\n".join(report.lines({name: report.figures(table) for name, (table, _) in stops.items()})))
         simulated, wall = sum(table[-1, 0] for table, _ in stops.values()), time.perf_counter() - began
         print(f"\n{simulated:.0f} s simulated in {wall:.0f} s; written to {out}: {', '.join(path.name for path in written)}")
     if endless:

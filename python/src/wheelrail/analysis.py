@@ -67,12 +67,12 @@ def run(options):
         header, rows, lines, draw = COMMANDS[options.command](options)
     except signals.BadSignal as error:
         raise BadFile(f"{options.file}: {error}") from error
-    print("\n".join(lines))
     table, picture = (options.out / f"{options.command}.{kind}" for kind in ("csv", "png"))
     write_rows(table, [header, *([f"{value:.9g}" for value in row] for row in rows)])
     columns = beside(table, "columns")
     write_columns(columns, [(column, *told(column, options)) for column in header])
     save(picture, draw)
+    print("\n".join(lines))
     print(f"written: {table}, {columns}, {picture}")
 
 

@@ -31,11 +31,11 @@ class Unwritten(OSError):
 @contextmanager
 def fresh(path: str | Path) -> Iterator[Path]:
     """The path of a file beside `path`, with the same ending, which takes its place in the end. What goes wrong removes it."""
-    target = Path(os.path.realpath(path))
-    if target.exists() and not (target.is_file() or target.is_dir()):  # a device or a pipe has no place to take
+    if _is_stream(path):
         with _failing(path, False):
-            yield target
+            yield Path(path)
         return
+    target = Path(os.path.realpath(path))
     with _owner(target, path), _failing(path, target.is_file()):
         target.parent.mkdir(parents=True, exist_ok=True)
         beside = target.with_name(f".wheelrail-{secrets.token_hex(6)}{target.suffix}")
@@ -50,6 +50,11 @@ def fresh(path: str | Path) -> Iterator[Path]:
             log.info("written: %s", path)
         finally:
             beside.unlink(missing_ok=True)
+
+
+def _is_stream(path):
+    """Whether a path is a device or a pipe, such as /dev/stdout, which has no place that a file could take."""
+    return Path(path).exists() and not (Path(path).is_file() or Path(path).is_dir())
 
 
 @contextmanager
@@ -68,7 +73,7 @@ def check_place(path: Path, option: str) -> None:
     with asked(path, f"{option}: {path} cannot be written"):
         if place.is_dir():
             raise IsADirectoryError(errno.EISDIR, "it is a folder: name a file in it")
-        if not place.exists() or place.is_file():
+        if not _is_stream(path):
             TemporaryFile(dir=next(above for above in place.parents if above.exists())).close()
 
 
