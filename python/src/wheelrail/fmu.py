@@ -78,7 +78,7 @@ class Fmu(Unique):
         self._folder = _unpacked(fmu_file(path))
         try:
             self.directory = str(self._folder.path)
-            # Without a check against the schema of FMI, which takes as long as all else here: who packs an FMU makes it.
+            # Without a check against the schema of FMI, of which lxml makes one at a time: the tests of the packed FMU have it.
             self.description = fmpy.read_model_description(self.directory, validate=False)
         except Exception as failure:  # whatever XML and fmpy say of what is no description
             self._folder.remove()
