@@ -34,6 +34,7 @@ from pathlib import Path
 
 import wheelrail
 from wheelrail import run_commands
+from wheelrail.__main__ import ended_in_a_line
 from wheelrail.fmu import default_path
 
 KELVIN = 273.15  # K at 0 °C
@@ -133,7 +134,7 @@ class Preset:
     """Wheels of a preset, with what their runs need to know about it."""
 
     def __init__(self, fmu, options, preset):
-        self.fmu, self.options, self.preset = fmu, options, preset
+        self.fmu, self.options, self.preset, self.stopped = fmu, options, preset, False
         self.starts = {name: variable.start for name, variable in fmu.variables.items()}
         content = json.loads(Path(fmu.directory, "resources", f"{preset}.json").read_text())
         self.starts |= {f"{group}.{name}": v for group, values in content.items() for name, v in values.items()}
@@ -153,7 +154,13 @@ class Preset:
             strongest = STRONGER * max(self.number("friction.coefficient"), 1.0) * self.number("model.nominal_load") * radius
             head, rotation, free, locked = "brake.torque", "moment", 0.0, strongest
         course = [0.0, LOCK, max(self.options.stop, LOCK)], [free, locked, locked]
-        return {"control.rotation": rotation, "control.translation": "velocity", "drive.velocity": velocity, head: course}
+
+        def kept(_):
+            if self.stopped:  # Ctrl-C does not reach the thread of a run
+                raise KeyboardInterrupt
+            return velocity
+
+        return {"control.rotation": rotation, "control.translation": "velocity", "drive.velocity": kept, head: course}
 
     def slide(self, speed, step, elements, by):
         """Runs a slide from a speed [km/h] with a step [s] on a mesh; returns its figures."""
@@ -320,9 +327,15 @@ def study(options):
         cases.sort(key=lambda case: (case[2], -case[3]))
         waiting = [pool.submit(preset.slide, *case) for preset, *case in cases]
         print(f"{len(cases)} runs of {options.stop:g} s, {options.jobs} at a time\n{HEAD}", flush=True)
-        for done in as_completed(waiting):
-            results.append(done.result())
-            print(f"{line(results[-1])}  [{len(results)}/{len(cases)}]", flush=True)
+        try:
+            for done in as_completed(waiting):
+                results.append(done.result())
+                print(f"{line(results[-1])}  [{len(results)}/{len(cases)}]", flush=True)
+        except BaseException:
+            for preset in presets:
+                preset.stopped = True
+            pool.shutdown(cancel_futures=True)
+            raise
     results.sort(key=lambda r: (r["preset"], r["by"], r["speed"], -r["step"], r["elements"]))
     print(f"\nIn order:\n{HEAD}\n" + "\n".join(line(r) for r in results))
     count = report(results)
@@ -339,4 +352,6 @@ def study(options):
 
 
 if __name__ == "__main__":
-    sys.exit(study(arguments()))
+    with ended_in_a_line():
+        code = study(arguments())
+    sys.exit(code)

@@ -543,6 +543,6 @@ def test_the_page_of_stops_changes_from_stop_to_stop_and_fits_a_telephone(stoppe
 def test_a_patch_whose_positions_begin_far_from_zero_is_as_wide_as_it_is():
     """As from a table of rows that counts from the middle of the track."""
     width, position = 8e-3, 0.745 + np.array([[0.0, 2e-3, 5e-3]])
-    run = SimpleNamespace(time=np.array([0.0]), has=lambda name: True, get=lambda name: np.array([width]))
+    run = SimpleNamespace(time=np.array([0.0]), at=lambda name, time: np.array([width]))
     edges = above._edges(run, position, run.time)[0]
     assert edges == pytest.approx(0.745 + np.array([-1.25e-3, 1e-3, 3.5e-3, 6.75e-3]), abs=1e-12)

@@ -150,7 +150,7 @@ def test_a_run_that_fails_ends_with_code_1_and_keeps_what_was_computed(capsys):
     found = pandas.read_csv("run.csv")
     assert code == 1 and "model.nominal_load" in said and f"run.csv holds what was computed up to {found['time'].iloc[-1]} s" in said, said
     assert 3 <= len(found) < 11 and (found["contact.force_y"] > 9e4).all()
-    assert ended(capsys, "steady", "--creepage", "0", "--out", "run.csv/steady.csv", *SMALL)[0] == 1
+    assert ended(capsys, "steady", "--creepage", "0", "--out", "run.csv/steady.csv", *SMALL)[0] == 2
 
 
 def test_the_profile_of_the_wheel_at_the_end_is_written_and_read_again(capsys):

@@ -47,7 +47,7 @@ class Site(unittest.TestCase):
         tree = ast.parse((api.PACKAGE / "__init__.py").read_text())
         exported = next(ast.literal_eval(n.value) for n in tree.body if isinstance(n, ast.Assign) and n.targets[0].id == "__all__")
         self.assertEqual(set(exported), {*names, "damage"})
-        self.assertEqual(names["Fmu"][0], "wheelrail.opened.Fmu")  # which wheelrail.fmu hands on
+        self.assertEqual(names["Fmu"][0], "wheelrail.fmu.Fmu")
 
     def test_diagrams_are_pictures_and_no_source_text(self):
         fenced = {path: re.findall(r"^```(\w+)", (ROOT / path).read_text(), re.MULTILINE) for path in pages() if (ROOT / path).is_file()}

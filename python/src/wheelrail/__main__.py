@@ -7,20 +7,17 @@ import math
 import os
 import sys
 import time
-from contextlib import ExitStack, redirect_stderr, redirect_stdout, suppress
+from contextlib import ExitStack, contextmanager, redirect_stderr, redirect_stdout, suppress
 from pathlib import Path
 
-from . import __version__, analysis, completion, damage, paraview, patch_table, run_commands
+from . import __version__, analysis, completion, damage, page, paraview, patch_table, run_commands
 from . import scenario as scenarios
 from .compare import Died
 from .controllers import ControllerFailed
 from .files import BadFile, json_schema
-from .fmu import Fmu, Refused, default_path
+from .fmu import Fmu, Refused, default_path, fmu_of_wheel
 from .interrupt import told_to_end
-from .opened import fmu_file
-from .output import fresh
-from .page import command as page
-from .results import directory, spare
+from .output import fresh, results_folder, spare
 from .sweep_command import SweepStopped
 from .sweep_command import run as sweep
 from .train import TrackEnds
@@ -28,8 +25,13 @@ from .warn import WheelrailWarning, in_lines
 from .wheelset import patches_of
 
 
-# Commands that need no scenario, by the modules that run them.
-WITHOUT = {"simulate": run_commands, "steady": run_commands, "report": page, "damage": damage, "export": paraview, "patch": patch_table}
+# Commands that need no scenario, and what runs them.
+WITHOUT = dict.fromkeys(analysis.COMMANDS, analysis.run) | {
+    "simulate": run_commands.run, "steady": run_commands.run, "report": page.command, "damage": damage.run, "export": paraview.run,
+    "patch": patch_table.run,
+    "schema": lambda options: print(json.dumps(json_schema(scenarios.SCHEMAS[options.kind]), indent=2)),
+    "completion": lambda options: print(completion.script(parser(), options.shell), end=""),
+}  # fmt: skip
 LEVELS = ("debug", "info", "warning")
 # What the earlier program in Rust took under the same name, and what does so now: commands, and options of commands.
 BODIES = "{} is not about the patch of a record: fields in the whole bodies are written by cargo run --release --example fields in a checkout"
@@ -109,7 +111,7 @@ def train(options, scenario):
     from .plots import draw_stops
     from .progress import Progress
 
-    out = directory(options.out, scenario)
+    out = results_folder(options.out, scenario.paths["scenario"].stem)
     path_of = {name: out / f"train_{name.lower().replace(' ', '_')}.csv" for name in compare.variants(scenario)}
     listed = [*path_of.values(), out / "train.png", out / "train.html", out / "train_columns.csv"]
     spare(listed, options.force)
@@ -122,9 +124,6 @@ def train(options, scenario):
 
         stops = compare.side_by_side(scenario, None if options.rigid else options.fmu, progress, endless)
     if stops:
-        print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}")
-        print(f"wheelsets: {wheels(options, scenario)}\n")
-        print("\n".join(report.lines({name: report.figures(table) for name, (table, _) in stops.items()})))
         written = [out / "train_columns.csv", out / "train.png", *(path_of[name] for name in stops)]
         written += [out / "train.html"] if page.drawable() else []
         with ExitStack() as together:  # nothing takes the place of old results before all is written
@@ -136,6 +135,10 @@ def train(options, scenario):
             page.of_train(new.get(out / "train.html"), stops, scenario)
         for old in set(listed) - set(written):
             old.unlink(missing_ok=True)
+        # Last, since who reads it may have gone.
+        print(f"\n{scenario.name}: {scenario.vehicle.name}, {scenario.brake.name}, {scenario.track.name}")
+        print(f"wheelsets: {wheels(options, scenario)}\n")
+        print("\n".join(report.lines({name: report.figures(table) for name, (table, _) in stops.items()})))
         simulated, wall = sum(table[-1, 0] for table, _ in stops.values()), time.perf_counter() - began
         print(f"\n{simulated:.0f} s simulated in {wall:.0f} s; written to {out}: {', '.join(path.name for path in written)}")
     if endless:
@@ -160,11 +163,7 @@ def packages(options, scenario):
     for name, value in (("--step", options.step), ("--stop", options.stop)):
         if not (value > 0.0 and math.isfinite(value)):
             raise BadFile(f"{name} = {value:g} s is no time above zero")
-    try:
-        options.out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise BadFile(f"--out {options.out}: {error.strerror}") from None
-    coach = options.out / "coach.fmu"
+    coach = results_folder(options.out, "") / "coach.fmu"
     texts = [path for path in map(Path, ("LICENSE-MIT", "LICENSE-APACHE", "docs/LICENSE-THIRD-PARTY")) if path.is_file()]
     with Fmu(options.fmu) as wheel:
         version = wheel.description.fmiVersion[0]
@@ -191,13 +190,10 @@ def rigid(scenario):
 def opened(path, scenario):
     """Refuses, before anything is computed, an FMU that is missing or another one, and wheel parameters that it does not know."""
     try:
-        with Fmu(fmu_file(path, ", with --fmu, or take --rigid")) as known:
-            parameters = {v.name: v for v in known.description.modelVariables if v.causality == "parameter"}
+        with fmu_of_wheel(path, ", with --fmu, or take --rigid") as known:
+            scenarios.check_wheel(scenario, {name: v for name, v in known.variables.items() if v.causality == "parameter"})
     except Refused as error:
         raise BadFile(str(error)) from None
-    if "mesh.elements_per_half_width" not in parameters:
-        raise BadFile(f"{path} is an FMU, but not that of a wheel")
-    scenarios.check_wheel(scenario, parameters)
 
 
 def checked(options, scenario):
@@ -231,17 +227,18 @@ def main(argv=None):
 def command(argv):
     """Runs a command."""
     options = arguments(argv)
-    if options.command == "schema":
-        print(json.dumps(json_schema(scenarios.SCHEMAS[options.kind]), indent=2))
-        return
-    if options.command == "completion":
-        print(completion.script(parser(), options.shell), end="")
-        return
     if options.log:
         logging.basicConfig(level=options.log.upper(), format="%(levelname)s %(name)s: %(message)s", stream=sys.stderr)
+    with ended_in_a_line():
+        run(options)
+
+
+@contextmanager
+def ended_in_a_line():
+    """Warnings are lines meanwhile, and what ends a command is one line and an exit code, as `main` has them."""
     try:
         with in_lines(), told_to_end():
-            run(options)
+            yield
         sys.stdout.flush()
     except BrokenPipeError:  # who read what is printed has gone, such as `head`
         drop_output()
@@ -271,22 +268,16 @@ def end(error, code):
 
 
 def run(options):
-    """Runs a command but `schema`."""
-    if options.command in analysis.COMMANDS:
-        analysis.run(options)
-        return
+    """Runs a command, most of which need no scenario."""
     if options.command in WITHOUT:
-        WITHOUT[options.command].run(options)
+        WITHOUT[options.command](options)
         return
     scenario = scenarios.load(options.scenario)
     if options.command == "ssp":
         packages(options, scenario)
         return
     checked(options, scenario)
-    if options.command == "train":
-        train(options, scenario)
-    else:
-        sweep(options, scenario)
+    (train if options.command == "train" else sweep)(options, scenario)
 
 
 if __name__ == "__main__":

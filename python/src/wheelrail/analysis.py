@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from . import signals, surfaces, units
-from .output import beside, fresh, write_columns, write_rows
+from .output import beside, write_columns, write_rows
 from .page.units import guessed
 from .tables import BadFile, headings_of, number_in, read_table
 from .units import UnitError, converted, headed, named
@@ -59,21 +59,20 @@ def add_command(commands):
     made["filter"].add_argument("--half-width", type=float, default=7.16e-3, help="of the contact [m], default: %(default)s")
     for command in made.values():
         command.add_argument("--out", type=Path, default=Path("results"), help="directory, default: %(default)s")
-    return tuple(made)
 
 
 def run(options):
     """Runs a command: a table on the screen, a CSV and a picture."""
     try:
-        name, header, rows, lines, draw = COMMANDS[options.command](options)
+        header, rows, lines, draw = COMMANDS[options.command](options)
     except signals.BadSignal as error:
         raise BadFile(f"{options.file}: {error}") from error
-    print("\n".join(lines))
-    table, picture = options.out / f"{name}.csv", options.out / f"{name}.png"
+    table, picture = (options.out / f"{options.command}.{kind}" for kind in ("csv", "png"))
     write_rows(table, [header, *([f"{value:.9g}" for value in row] for row in rows)])
     columns = beside(table, "columns")
     write_columns(columns, [(column, *told(column, options)) for column in header])
     save(picture, draw)
+    print("\n".join(lines))
     print(f"written: {table}, {columns}, {picture}")
 
 
@@ -111,12 +110,11 @@ def _in_si(name, values, unit):
 
 def save(path, draw):
     """A picture of one diagram."""
-    from .plots import subplots
+    from . import plots
 
-    figure, axis = subplots(figsize=(6.4, 4.0))
+    figure, axis = plots.subplots(figsize=(6.4, 4.0))
     draw(axis)
-    with fresh(path) as new:
-        figure.savefig(new, dpi=110)
+    plots.save(path, figure)
 
 
 def _signal(options):
@@ -151,7 +149,7 @@ def _force(options):
         other.set(ylabel="share of time above")
         other.grid(False)
 
-    return "force", (options.column, "density", "exceedance"), rows, lines, draw
+    return (options.column, "density", "exceedance"), rows, lines, draw
 
 
 def _spectrum(options):
@@ -166,7 +164,7 @@ def _spectrum(options):
         axis.loglog(frequency[1:], amplitude[1:])
         axis.set(xlabel=f"frequency [1/unit of {options.over}]", ylabel=f"amplitude of {options.column}")
 
-    return "spectrum", ("frequency", "amplitude"), list(zip(frequency, amplitude)), lines, draw
+    return ("frequency", "amplitude"), list(zip(frequency, amplitude)), lines, draw
 
 
 def _octaves(options):
@@ -198,7 +196,7 @@ def _octaves(options):
             axis.legend()
         axis.set(xlabel="wavelength [m]" if profile else "frequency", ylabel=f"level [dB re {reference:g}]")
 
-    return "octaves", ("wavelength", "level", "limit") if profile else ("frequency", "level"), rows, lines, draw
+    return ("wavelength", "level", "limit") if profile else ("frequency", "level"), rows, lines, draw
 
 
 def _flat(options):
@@ -215,7 +213,7 @@ def _flat(options):
         axis.set(xlabel="speed [km/h]", ylabel=f"{options.column} of a turn")
         axis.legend()
 
-    return "flat", ("speed", "largest", "smallest", "share_without_contact"), rows, lines, draw
+    return ("speed", "largest", "smallest", "share_without_contact"), rows, lines, draw
 
 
 def _filter(options):
@@ -237,7 +235,7 @@ def _filter(options):
         axis.set(xlabel="wavelength [m]", ylabel="contact filter [dB]")
         axis.legend()
 
-    return "filter", ("wavelength", "filter", "cnossos"), rows, lines, draw
+    return ("wavelength", "filter", "cnossos"), rows, lines, draw
 
 
 COMMANDS = {"force": _force, "spectrum": _spectrum, "octaves": _octaves, "flat": _flat, "filter": _filter}

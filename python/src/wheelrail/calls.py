@@ -9,7 +9,7 @@ import atexit
 import logging
 import os
 import re
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack
 from ctypes import cast
 from threading import RLock
 from time import monotonic
@@ -61,7 +61,7 @@ def callbacks(log):
     return functions
 
 
-class Calls:
+class Calls(AbstractContextManager):
     """Calls functions of one instance, one at a time. What is refused is raised in the FMU's own words, of the list `log`.
 
     `with calls, calls.lock:` holds other threads off for several calls in a row. What the instance `name` says meanwhile is logged, and
@@ -82,9 +82,6 @@ class Calls:
             except fmi1.FMICallException as failure:
                 said = "; ".join(message for message in self.log[seen:] if message.status == failure.status)
                 raise Refused(said or f"the FMU refused the call without a word (status {failure.status})") from None
-
-    def __enter__(self):
-        return self
 
     def __exit__(self, *_):
         if self._heard == len(self.log) or self.lock._is_owned():  # as threading.Condition asks

@@ -18,10 +18,9 @@ class Told(KeyboardInterrupt):
 @contextmanager
 def told_to_end():
     """Meanwhile SIGTERM and SIGHUP end a command as Ctrl-C does, but for those that its process was started to ignore."""
-    names = [name for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
-    numbers = [number for number in map(signal.Signals.__getitem__, names) if signal.getsignal(number) == signal.SIG_DFL]
-    if threading.current_thread() is not threading.main_thread():
-        numbers = []
+    ours = threading.current_thread() is threading.main_thread()
+    known = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if ours and hasattr(signal, name)]
+    numbers = [number for number in known if signal.getsignal(number) == signal.SIG_DFL]
 
     def tell(number, _):
         raise Told(number)

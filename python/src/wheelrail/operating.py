@@ -27,6 +27,7 @@ OUTPUTS = (
     "temperature.rail_max", "heat.friction_power",
 )  # fmt: skip
 RANGE, COUNT = 1.5, 16  # of Carter's full slip, and points up to there
+MOST = 1_000_000  # points of a range
 PASSES, TOLERANCE = 8, 1e-12  # that find the growth of a warm wheel, and what they may miss of its radius
 PRESCRIBED = {"control.rotation": "velocity", "control.translation": "velocity"}
 FOLLOWS = ("drive.velocity", "drive.omega", "initial.creepage")
@@ -141,7 +142,7 @@ def _creepages(given: float | Iterable[float]) -> np.ndarray:
         raise
     except (TypeError, ValueError):
         raise ValueError(f"creepage = {short(given)} is no number and no list of numbers") from None
-    wrong = [value for value in values.ravel() if not abs(value) < 2.0]
+    wrong = values[~(np.abs(values) < 2.0)].tolist()
     if values.ndim != 1 or wrong or not len(values):
         raise ValueError(f"creepage = {short(wrong[0] if wrong else given)} is outside -2 to 2, or no list")
     return values
@@ -153,9 +154,11 @@ def ranged(text: str) -> np.ndarray:
         first, *rest = text.split(":")
         if not rest:
             return _creepages(float(first))
+        if len(rest) != 2:
+            raise ValueError(f"{len(rest) + 1} parts")
         last, count = rest
-        if int(count) < 2:
-            raise ValueError("at least 2 points for a range")
+        if not 2 <= int(count) <= MOST:
+            raise ValueError(f"2 to {MOST} points for a range")
         return _creepages(np.linspace(float(first), float(last), int(count)))
     except ValueError as error:
         raise ArgumentTypeError(f"{text!r}: expected one number or FROM:TO:COUNT ({error})") from None

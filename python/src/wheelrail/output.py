@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 import logging
 import os
 import secrets
@@ -10,7 +11,10 @@ import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryFile
 from threading import Lock
+
+from .tables import BadFile
 
 log = logging.getLogger(__name__)
 _lock, _owned = Lock(), set()
@@ -27,11 +31,11 @@ class Unwritten(OSError):
 @contextmanager
 def fresh(path: str | Path) -> Iterator[Path]:
     """The path of a file beside `path`, with the same ending, which takes its place in the end. What goes wrong removes it."""
-    target = Path(os.path.realpath(path))
-    if target.exists() and not (target.is_file() or target.is_dir()):  # a device or a pipe has no place to take
+    if _is_stream(path):
         with _failing(path, False):
-            yield target
+            yield Path(path)
         return
+    target = Path(os.path.realpath(path))
     with _owner(target, path), _failing(path, target.is_file()):
         target.parent.mkdir(parents=True, exist_ok=True)
         beside = target.with_name(f".wheelrail-{secrets.token_hex(6)}{target.suffix}")
@@ -46,6 +50,48 @@ def fresh(path: str | Path) -> Iterator[Path]:
             log.info("written: %s", path)
         finally:
             beside.unlink(missing_ok=True)
+
+
+def _is_stream(path):
+    """Whether a path is a device or a pipe, such as /dev/stdout, which has no place that a file could take."""
+    return Path(path).exists() and not (Path(path).is_file() or Path(path).is_dir())
+
+
+@contextmanager
+def asked(path: Path, problem: str) -> Iterator[None]:
+    """What the system refuses meanwhile of a path that a user has named is a wrong argument, unless the disk is full."""
+    try:
+        yield
+    except OSError as error:
+        full = error.errno in (errno.ENOSPC, errno.EDQUOT)
+        raise (Unwritten(path, error.strerror) if full else BadFile(f"{problem}: {error.strerror}")) from None
+
+
+def check_place(path: Path, option: str) -> None:
+    """Refuses, before anything is computed, the path that an option of a command names, if no file can be written there."""
+    place = Path(os.path.realpath(path))
+    with asked(path, f"{option}: {path} cannot be written"):
+        if place.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "it is a folder: name a file in it")
+        if not _is_stream(path):
+            TemporaryFile(dir=next(above for above in place.parents if above.exists())).close()
+
+
+def results_folder(out: Path, name: str) -> Path:
+    """The folder of a name below `--out`, made if it is not there, in which files can be written."""
+    path = out / name
+    with asked(path, f"--out: nothing can be written to {path}"):
+        path.mkdir(parents=True, exist_ok=True)
+        TemporaryFile(dir=path).close()
+    return path
+
+
+def spare(paths: list[Path], force: bool) -> None:
+    """Refuses to overwrite files that are there, unless `force`."""
+    there = [path for path in paths if path.exists()]
+    if there and not force:
+        names = ", ".join(path.name for path in there)
+        raise BadFile(f"{there[0].parent} holds results already ({names}): add --force to overwrite them, or take another --out")
 
 
 def write(path: str | Path, content: str | bytes | memoryview) -> None:

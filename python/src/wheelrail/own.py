@@ -6,7 +6,6 @@ machines need no copy of them.
 
 import ast
 import builtins
-import difflib
 import hashlib
 import importlib
 import importlib.util
@@ -20,7 +19,7 @@ from dataclasses import dataclass
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
 
-from .files import BadFile
+from .tables import BadFile, nearest
 from .warn import PACKAGE
 
 FORM = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
@@ -41,9 +40,8 @@ class OwnClass:
         known = vars(_module(module, self.files))
         if wanted not in known:
             classes = [name for name, value in known.items() if inspect.isclass(value)]
-            close = difflib.get_close_matches(wanted, classes, n=1)
-            hint = f"; did you mean {close[0]}?" if close else ""
-            raise BadFile(f"{self.where}: {Path(self.files[0][0]).name if self.files else module} has no class {wanted}{hint}")
+            file = Path(self.files[0][0]).name if self.files else module
+            raise BadFile(f"{self.where}: {file} has no class {wanted}{nearest(wanted, classes)}")
         if not inspect.isclass(known[wanted]):
             raise BadFile(f"{self.where}: {self.name} is a {type(known[wanted]).__name__}, not a class")
         return known[wanted]

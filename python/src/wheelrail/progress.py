@@ -2,6 +2,7 @@
 
 import sys
 import time
+from contextlib import AbstractContextManager
 from threading import RLock
 
 from tqdm import tqdm
@@ -23,7 +24,7 @@ def is_terminal(file):
         return False
 
 
-class Progress:
+class Progress(AbstractContextManager):
     """How much of `total` is done; `initial` of it was known before. A context manager, on the stream `file`."""
 
     def __init__(self, total, about, initial=0.0, file=None):
@@ -33,9 +34,6 @@ class Progress:
         self.bar = None
         if is_terminal(self.file):
             self.bar = Bar(total=total, initial=initial, desc=about, bar_format=FORM, file=self.file)
-
-    def __enter__(self):
-        return self
 
     def __exit__(self, *_):
         if self.bar:

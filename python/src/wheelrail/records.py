@@ -12,14 +12,13 @@ from math import isclose
 from operator import itemgetter
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from fmpy.model_description import ScalarVariable
 
 from . import output
 from .instances import BUFFERS
-from .opened import Instance
 from .origin import settings
 from .tables import BadFile
 from .values import Refused, first_line, kind, short
@@ -44,7 +43,7 @@ SAME_TIME = 1e-12  # relative difference of times that is rounding
 
 
 class Recorder:
-    """Samples of a wheel that its user steps: one when it is made, and one after every `every`-th step.
+    """Samples of a wheel, a `fmu.Wheel`, that its user steps: one when it is made, and one after every `every`-th step.
 
     `outputs` are names and patterns (`contact.*`) of variables, by themselves all outputs that are no profiles; `profiles`
     are those across the contact patch, all with `True`, or some by name (`["pressure", "slip"]`), and `depth` the
@@ -57,7 +56,7 @@ class Recorder:
 
     def __init__(
         self,
-        wheel: Instance,
+        wheel: Any,
         outputs: str | Iterable[str] | None = None,
         profiles: bool | str | Iterable[str] = False,
         depth: bool | str | Iterable[str] = False,

@@ -16,9 +16,8 @@ import numpy as np
 
 from . import operating, runs
 from .files import Real, Text, read_csv
-from .fmu import Fmu, default_path
-from .opened import fmu_file
-from .output import write, write_columns
+from .fmu import Fmu, default_path, fmu_of_wheel
+from .output import check_place, write, write_columns
 from .records import library
 from .samples import LATEST
 from .tables import BadFile
@@ -69,7 +68,7 @@ def add_command(commands: Any) -> None:
 def run(options: Namespace) -> None:
     """Runs one of the commands. What is refused before anything is computed is a wrong argument."""
     try:
-        with Fmu(fmu_file(options.fmu, " or with --fmu")) as fmu:
+        with fmu_of_wheel(options.fmu, " or with --fmu") as fmu:
             (simulate if options.command == "simulate" else steady)(options, fmu)
     except (Refused, ValueError, ImportError) as error:
         if hasattr(error, "run"):
@@ -80,7 +79,7 @@ def run(options: Namespace) -> None:
 def setting(text: str) -> tuple[str, object]:
     """Name and value of NAME=VALUE: a number where it is one, else the text."""
     name, sign, value = map(str.strip, text.partition("="))
-    if not sign:
+    if not (name and sign):
         raise ArgumentTypeError(f"{text!r}: expected NAME=VALUE, such as drive.load=8e4")
     try:
         return name, float(value)
@@ -130,13 +129,8 @@ def simulate(options: Namespace, fmu: Fmu) -> None:
     inputs |= scenario(fmu, options.scenario) if options.scenario else {}
     names = [name.strip() for name in options.outputs.split(",")]
     recorded = [*(name.partition("[")[0] for name in names), *SUMMARY]
-    began, ended = perf_counter(), None
-    try:
-        record = runs.simulate(parameters, inputs, stop=options.stop, step=options.step, outputs=recorded, every=options.every, fmu=fmu)
-    except (Refused, KeyboardInterrupt) as failure:
-        if not hasattr(failure, "run"):
-            raise
-        record, ended = failure.run, failure
+    began = perf_counter()
+    record, ended = _ran(runs.simulate, parameters, inputs, stop=options.stop, step=options.step, outputs=recorded, every=options.every, fmu=fmu)
     wall = perf_counter() - began
     rows = frame(record, names)
     if options.columns:
@@ -152,13 +146,25 @@ def simulate(options: Namespace, fmu: Fmu) -> None:
     print("\n".join(summary(fmu, record, wall)), file=sys.stderr)
 
 
+def _ran(function, *arguments, **named):
+    """What a run gives, and None; or what it gave until something ended it, and that."""
+    try:
+        return function(*arguments, **named), None
+    except (Refused, KeyboardInterrupt) as failure:
+        if not hasattr(failure, "run"):
+            raise
+        return failure.run, failure
+
+
 def _apart(options):
-    """Refuses two files in one place: results over the scenario, or under the profile of the wheel."""
+    """Refuses two files in one place, results over the scenario, or under the profile of the wheel, and places for none."""
     seen = {}
     for option in ("--out", "--scenario", "--columns", "--wheel-profile"):
-        path = getattr(options, option[2:].replace("-", "_"))
+        path = getattr(options, option[2:].replace("-", "_"), None)
         if path and (first := seen.setdefault(path.resolve(), option)) != option:
             raise BadFile(f"{first} and {option} are one file, {path}; give each a path of its own")
+        if path and option != "--scenario":
+            check_place(path, option)
 
 
 def frame(record: xarray.Dataset, names: list[str]) -> pandas.DataFrame:
@@ -203,14 +209,9 @@ def shown(fmu: Fmu, name: str, value: float) -> tuple[str, str]:
 
 def steady(options: Namespace, fmu: Fmu) -> None:
     """A curve over the creepage to a CSV, or as a table."""
+    _apart(options)
     parameters, inputs = given(options, fmu)
-    ended = None
-    try:
-        curve = operating.steady(parameters, inputs, creepage=options.creepage, velocity=options.velocity, fmu=fmu)
-    except (Refused, KeyboardInterrupt) as failure:
-        if not hasattr(failure, "run"):
-            raise
-        curve, ended = failure.run, failure
+    curve, ended = _ran(operating.steady, parameters, inputs, creepage=options.creepage, velocity=options.velocity, fmu=fmu)
     rows = curve.to_dataframe()
     text = table(fmu, rows) if options.table else rows.to_csv(index=False, lineterminator="\n")
     write(options.out, text) if options.out else sys.stdout.write(text)

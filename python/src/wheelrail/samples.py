@@ -7,12 +7,9 @@
 | `[(0.0, 1e5), (0.5, 8e4)]`, an array of two columns | the first of each pair |
 | a Series, a DataFrame of one column, a DataArray | its index or coordinate |
 
-Times are numbers of seconds, or of a unit that an index or attribute names, spans of time (timedelta), or dates and periods, which
+Times are numbers of seconds, or of a unit that an index or attribute names, spans of time (timedelta), or dates, which
 count from the earliest one of all inputs. Values may have a unit beside them.
 """
-
-from decimal import Decimal
-from numbers import Real
 
 import numpy as np
 
@@ -103,19 +100,12 @@ def _index(name, times):
         times = [converted(f"{name}: time", *beside(time), "s") for time in times]
     if np.ma.is_masked(times):
         raise ValueError(f"{name}: some times are masked: leave such samples out")
-    if isinstance(times, pandas.MultiIndex):
-        raise ValueError(f"{name}: its index has {times.nlevels} levels: expected one of times; `droplevel` or `reset_index` makes it")
     try:
         index = times.to_index() if hasattr(times, "to_index") else pandas.Index(times)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name}: {short(times)} are no times: {error}") from None
-    if isinstance(index, pandas.PeriodIndex):
-        index = index.to_timestamp()
     if index.hasnans:
         raise ValueError(f"{name}: time {int(np.flatnonzero(index.isna())[0]) + 1} is missing (NaN or NaT): leave such samples out")
-    numbers = index.dtype == object and all(isinstance(t, (Real, Decimal)) and not isinstance(t, (bool, np.bool_)) for t in index)
-    if numbers:
-        index = pandas.Index([float(t) for t in index])
     if getattr(index.dtype, "kind", "O") not in ("i", "u", "f", *SPANS):
         raise ValueError(
             f"{name}: times are {short(list(index[:3]))}, neither seconds, nor spans of time, nor dates; `pandas.to_numeric`, "

@@ -16,6 +16,7 @@ from .rail_map import RailLaw, RailMap
 from .reach import check_gap, check_reach
 from .schemas import BRAKE, PROFILE, SCENARIO, SECTIONS, TRACK, VEHICLE
 from .smooth import Spline
+from .tables import nearest
 from .units import headed
 from .values import Refused, to_fmu
 from .warn import warn
@@ -261,9 +262,7 @@ def check_wheel(scenario, known):
         given += [(key.removeprefix(f"{part}."), value) for key, values in swept for value in values]
     for name, value in given:
         if name not in known:
-            close = difflib.get_close_matches(name, known, n=1)
-            hint = "".join(f"; did you mean {other}?" for other in close)
-            raise BadFile(f"{scenario.paths['scenario']}: wheel: {name} is no parameter of the FMU{hint}")
+            raise BadFile(f"{scenario.paths['scenario']}: wheel: {name} is no parameter of the FMU{nearest(name, known)}")
         try:
             to_fmu(known[name], value)
         except Refused as error:

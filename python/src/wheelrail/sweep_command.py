@@ -6,9 +6,8 @@ from contextlib import ExitStack
 
 from .files import BadFile
 from .interrupt import kept_from_children
-from .output import Unwritten, beside
+from .output import Unwritten, beside, results_folder
 from .progress import Progress
-from .results import directory
 from .sweep import Files, SchedulerGone, described, lists, points, references, scenarios_of, speed, sweep
 from .sweep_table import REASON
 
@@ -31,7 +30,7 @@ def run(options, scenario):
         raise BadFile(f"sweep needs the package {error.name}: python -m pip install 'wheelrail[sweep]'") from None
     from .plots_sweep import draw_sweep
 
-    path = directory(options.out, scenario) / "sweep.csv"
+    path = results_folder(options.out, scenario.paths["scenario"].stem) / "sweep.csv"
     unfinished = beside(path, "unfinished")
     scenarios_of(scenario, points(scenario))  # wrong values are said before anything is deleted or begins
     if options.force:

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from difflib import get_close_matches
 from pathlib import Path
 
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
@@ -19,6 +20,11 @@ SEPARATORS = {";": "semicolons", "\t": "tabs"}
 
 class BadFile(Exception):
     """A file that cannot be used; the text names file, line, name and range."""
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """The end of a refusal of a name: the known one that resembles it, if there is one."""
+    return "".join(f"; did you mean {other}?" for other in get_close_matches(name, known, n=1))
 
 
 SAVE = 'save it as UTF-8 ("CSV UTF-8" in Excel, Out-File -Encoding utf8 in PowerShell, "encoding" in editors)'

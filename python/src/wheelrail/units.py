@@ -14,7 +14,6 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
-import numpy as np
 
 DERIVED = ("N", "Pa", "J", "W")  # units that stay as they are written
 NONE = ("", "1", "-", "dimensionless", "none", "unitless")  # of a number without a unit
@@ -169,12 +168,8 @@ def beside(given: Any) -> tuple[Any, str | None]:
     if not hasattr(given, "attrs"):
         return _quantity(given)
     data, name = getattr(given, "data", None), getattr(given, "name", None)
-    if hasattr(getattr(given, "dtype", None), "units"):  # of pint-pandas
-        magnitude, unit = _quantity(given.pint.quantity)
-        return type(given)(np.asarray(magnitude, float), given.index, name=name), unit
-    if type(data).__module__.partition(".")[0] == "pint":  # in an array of xarray, whose times pint-xarray may have as well
-        plain = hasattr(given, "pint")
-        given = given.pint.dequantify() if plain else given.copy(data=data.magnitude).assign_attrs(units=f"{data.units:~C}")
+    if type(data).__module__.partition(".")[0] == "pint":  # in an array of xarray
+        given = given.copy(data=data.magnitude).assign_attrs(units=f"{data.units:~C}")
     return given, agreed(str(name), (noted(given.attrs, name), behind(name)))
 
 

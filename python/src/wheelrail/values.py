@@ -6,6 +6,7 @@ import os
 from ctypes import c_void_p
 from math import isfinite
 from numbers import Integral, Real
+from typing import Self
 
 from fmpy.model_description import ScalarVariable
 
@@ -20,7 +21,13 @@ class Refused(Exception):
 
 
 class Unique:
-    """What owns something of this process, and therefore can be neither copied nor pickled."""
+    """What owns something of this process until `close`, and therefore can be neither copied nor pickled."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def __reduce_ex__(self, _: object) -> None:
         raise Refused(f"a {type(self).__name__} can be neither copied nor pickled: {self.INSTEAD}")

@@ -48,25 +48,21 @@ class Link:
         return -self.stiffness * (self.row @ position) - self.damping * (self.row @ velocity)
 
 
-def along(body: int, height: float) -> np.ndarray:
+def row_of(size: int, entries: dict[int, float]) -> np.ndarray:
+    """A row of `size` coordinates that has these entries by their numbers."""
+    row = np.zeros(size)
+    row[list(entries)] = list(entries.values())
+    return row
+
+
+def along(size: int, body: int, height: float) -> np.ndarray:
     """Row of the x displacement of a point of a pitching body, `height` [m] above its centre of gravity."""
-    row = np.zeros(SIZE)
-    row[body], row[body + 2] = 1.0, -height
-    return row
+    return row_of(size, {body: 1.0, body + 2: -height})
 
 
-def upward(body: int, ahead: float) -> np.ndarray:
+def upward(size: int, body: int, ahead: float) -> np.ndarray:
     """Row of the y displacement of a point of a pitching body, `ahead` [m] of its centre of gravity."""
-    row = np.zeros(SIZE)
-    row[body + 1], row[body + 2] = 1.0, ahead
-    return row
-
-
-def wheelset(axle: int) -> np.ndarray:
-    """Row of the x displacement of a wheelset."""
-    row = np.zeros(SIZE)
-    row[9 + axle] = 1.0
-    return row
+    return row_of(size, {body + 1: 1.0, body + 2: ahead})
 
 
 class Coach:
@@ -100,37 +96,29 @@ class Coach:
         self.C = rows.T @ (np.array([link.damping for link in self.links])[:, None] * rows)
         self._solvers = {}
 
-    def _at(self, place, row):
-        """The row of one coach among those of all."""
-        whole = np.zeros(self.count * SIZE)
-        whole[place : place + SIZE] = row
-        return whole
-
     def _coupler(self, v, place):
         """Between the coach at a place among the coordinates and the next one; longer is positive."""
-        end = along(BODY, v.coupler.height - v.body.height)
-        row = self._at(place, end) - self._at(place + SIZE, end)
-        return Link(row, v.coupler.stiffness, v.coupler.damping)
+        ends = (along(len(self.masses), body + BODY, v.coupler.height - v.body.height) for body in (place, place + SIZE))
+        return Link(next(ends) - next(ends), v.coupler.stiffness, v.coupler.damping)
 
     def _build(self, v, front, wheel, place):
         """One coach: secondary suspension and traction rods; per axle the primary suspension along (`pull`) and upward
         (`lift`)."""
-        s, rod, p = v.secondary, v.traction_rod, v.primary
-        link = lambda row, stiffness, damping: Link(self._at(place, row), stiffness, damping)
-        for bogie, ahead in ((LEADING, front), (TRAILING, -front)):
-            lift = upward(bogie, 0.0) - upward(BODY, ahead)
-            shear = along(bogie, s.height - v.bogie.height) - along(BODY, s.height - v.body.height)
-            tow = along(bogie, rod.height - v.bogie.height) - along(BODY, rod.height - v.body.height)
+        s, rod, p, n, body = v.secondary, v.traction_rod, v.primary, len(self.masses), place + BODY
+        for bogie, ahead in ((place + LEADING, front), (place + TRAILING, -front)):
+            lift = upward(n, bogie, 0.0) - upward(n, body, ahead)
+            shear = along(n, bogie, s.height - v.bogie.height) - along(n, body, s.height - v.body.height)
+            tow = along(n, bogie, rod.height - v.bogie.height) - along(n, body, rod.height - v.body.height)
             self.secondary += [
-                link(lift, s.vertical_stiffness, s.vertical_damping),
-                link(shear, s.longitudinal_stiffness, s.longitudinal_damping),
-                link(tow, rod.stiffness, rod.damping),
+                Link(lift, s.vertical_stiffness, s.vertical_damping),
+                Link(shear, s.longitudinal_stiffness, s.longitudinal_damping),
+                Link(tow, rod.stiffness, rod.damping),
             ]
         for axle in range(AXLES):
-            bogie, ahead = (LEADING if axle < 2 else TRAILING), (wheel if axle % 2 == 0 else -wheel)
-            row = wheelset(axle) - along(bogie, v.wheelset.radius - v.bogie.height)
-            self.pull.append(link(row, p.longitudinal_stiffness, p.longitudinal_damping))
-            self.lift.append(link(-upward(bogie, ahead), p.vertical_stiffness, p.vertical_damping))
+            bogie, ahead = place + (LEADING if axle < 2 else TRAILING), (wheel if axle % 2 == 0 else -wheel)
+            row = row_of(n, {place + 9 + axle: 1.0}) - along(n, bogie, v.wheelset.radius - v.bogie.height)
+            self.pull.append(Link(row, p.longitudinal_stiffness, p.longitudinal_damping))
+            self.lift.append(Link(-upward(n, bogie, ahead), p.vertical_stiffness, p.vertical_damping))
 
     def start(self, speed: float) -> None:
         """All bodies move at a speed [m/s], springs as under their own weight."""

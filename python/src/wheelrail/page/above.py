@@ -109,14 +109,15 @@ def _edges(run, position, time):
     """Where strips of the lines meet [m]; without contact.width the outermost ones are as wide as half of them is known to be."""
     middle = 0.5 * (position[:, 1:] + position[:, :-1])
     first, last = 2.0 * position[:, :1] - middle[:, :1], 2.0 * position[:, -1:] - middle[:, -1:]
-    if run.has("contact.width"):
+    width = run.at("contact.width", time)
+    if width is not None:
         # Positions may begin anywhere, as those of a table of rows do.
-        beyond = 0.5 * (np.interp(time, run.time, run.get("contact.width"))[:, None] - (last - first))
+        beyond = 0.5 * (width[:, None] - (last - first))
         first, last = np.minimum(first - beyond, position[:, :1]), np.maximum(last + beyond, position[:, -1:])
     return np.hstack([first, middle, last])
 
 
 def _ahead(run, time):
     """1 where the wheel travels ahead, -1 where it travels back."""
-    velocity = run.get("wheel.velocity")
-    return [1] * len(time) if velocity is None else np.where(np.interp(time, run.time, velocity) < 0.0, -1, 1).tolist()
+    velocity = run.at("wheel.velocity", time)
+    return [1] * len(time) if velocity is None else np.where(velocity < 0.0, -1, 1).tolist()

@@ -94,40 +94,45 @@ def momentum(run):
     if run.has("energy.gravity") and np.any(run.get("energy.gravity")):
         return None  # The weight on a slope acts besides and is not recorded.
     vehicle = run.about.get("vehicle_mass", (run.about.get("parameters") or {}).get("vehicle.mass"))
-    (contact, _), (hub, blur) = _integral(run, "contact.force_x", SAMPLED), _integral(run, "hub.force_x", HELD)
     change = float(run.get("wheel.velocity")[-1] - run.get("wheel.velocity")[0])
     wheel = float(run.get("wheel.mass")[0])
-    rows = [("+ impulse of the contact force", contact), ("+ impulse of the hub force", hub)]
-    trapezoids = "Impulses are integrals of the samples by the trapezoidal rule."
+    found = _motion(
+        run, "Momentum along the rail", "N.s", ("contact.force_x", "hub.force_x"), ("force", "force"), (wheel + float(vehicle or 0.0)) * change,
+        "(wheel.mass + vehicle.mass) × change of speed", "Impulses are integrals of the samples by the trapezoidal rule.",
+    )  # fmt: skip
     if vehicle is None:
         if abs(change) < 0.1:
             return None
-        meaning = (
-            f"The impulse over the change of speed is {(contact + hub) / change:.6g} kg, the mass that moves: wheel"
+        impulse = sum(value for _, value in found.rows[:2])
+        found.rows[2:] = [("= change of momentum", impulse)]
+        found.meaning = (
+            f"The impulse over the change of speed is {impulse / change:.6g} kg, the mass that moves: wheel"
             f" ({wheel:.5g} kg) and its share of the vehicle (vehicle.mass), which this record does not name."
         )
-        return Balance("Momentum along the rail", "N.s", [*rows, ("= change of momentum", contact + hub)], meaning)
-    moved = (wheel + float(vehicle)) * change
-    rows += [("− (wheel.mass + vehicle.mass) × change of speed", moved), ("= missing", contact + hub - moved)]
-    meaning = f"Missing is {_share(contact + hub - moved, contact, hub)} of the larger impulse. {trapezoids}"
-    return Balance("Momentum along the rail", "N.s", rows, meaning + _blur(blur, "N.s"))
+    return found
 
 
 def rotation(run):
     """Impulse of the moments of contact and hub against the change of angular momentum."""
     if not run.has("wheel.omega", "contact.moment", "hub.moment", "wheel.inertia"):
         return None
-    (contact, _), (hub, blur) = _integral(run, "contact.moment", SAMPLED), _integral(run, "hub.moment", HELD)
     turned = float(run.get("wheel.inertia")[0] * (run.get("wheel.omega")[-1] - run.get("wheel.omega")[0]))
-    rows = [
-        ("+ impulse of the contact moment", contact), ("+ impulse of the hub moment, the brake's included", hub),
-        ("− wheel.inertia × change of angular velocity", turned), ("= missing", contact + hub - turned),
-    ]  # fmt: skip
-    meaning = (
-        f"Missing is {_share(contact + hub - turned, contact, hub)} of the larger impulse. The rim that turns against the hub by"
-        " its elasticity counts with the hub's velocity."
-    )
-    return Balance("Angular momentum of the wheel", "N.m.s", rows, meaning + _blur(blur, "N.m.s"))
+    return _motion(
+        run, "Angular momentum of the wheel", "N.m.s", ("contact.moment", "hub.moment"), ("moment", "moment, the brake's included"), turned,
+        "wheel.inertia × change of angular velocity",
+        "The rim that turns against the hub by its elasticity counts with the hub's velocity.",
+    )  # fmt: skip
+
+
+def _motion(run, title, unit, names, words, moved, change, meaning):
+    """Impulses of contact and hub against what a motion has gained."""
+    (contact, _), (hub, blur) = _integral(run, names[0], SAMPLED), _integral(run, names[1], HELD)
+    missing = contact + hub - moved
+    rows = [(f"+ impulse of the {of} {what}", value) for of, what, value in zip(("contact", "hub"), words, (contact, hub))]
+    share = _percent(abs(missing) / max(1e-9, abs(contact), abs(hub)))
+    if blur:
+        meaning += f" Between samples the hub's value counts as held, which leaves ±{shown(unit, [blur]).text(blur)} open."
+    return Balance(title, unit, [*rows, (f"− {change}", moved), ("= missing", missing)], f"Missing is {share} of the larger impulse. {meaning}")
 
 
 def _integral(run, name, kind):
@@ -136,18 +141,6 @@ def _integral(run, name, kind):
     sampled = float(np.sum(0.5 * steps * (values[1:] + values[:-1])))
     held = float(np.sum(steps * values[1:]))
     return (held if kind == HELD else sampled), abs(held - sampled)
-
-
-def _blur(blur, unit):
-    """What is not known of an impulse because the samples do not say how the value went between them."""
-    return (
-        f" Between samples the hub's value counts as held, which leaves ±{shown(unit, [blur]).text(blur)} open." if blur else ""
-    )
-
-
-def _share(missing, *impulses):
-    """What is missing in percent of the largest of some impulses."""
-    return _percent(abs(missing) / max(1e-9, *map(abs, impulses)))
 
 
 def _percent(value):

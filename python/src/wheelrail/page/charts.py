@@ -1,5 +1,7 @@
 """Curves of a run in groups that belong together, thinned so that no extreme is lost."""
 
+import math
+
 import numpy as np
 
 from .units import CELSIUS, KMH, PERCENT, shown
@@ -70,14 +72,7 @@ def thinned(time, values):
 
 def rounded(values, digits=6):
     """Values as a list for JSON, with so many digits; what is not finite is null."""
-    values = np.asarray(values, float)
-    finite = np.isfinite(values)
-    size = np.abs(np.where(finite & (values != 0.0), values, 1.0))
-    decimals = digits - 1 - np.floor(np.log10(size))
-    # Whole numbers over powers of ten are the nearest ones to decimals, which are written short.
-    up, down = 10.0 ** np.clip(decimals, 0, 300), 10.0 ** np.clip(-decimals, 0, 300)
-    short = np.round(np.where(finite, values, 0.0) * up / down) * down / up
-    return np.where(finite, short, None).tolist()
+    return [float(f"{value:.{digits}g}") if math.isfinite(value) else None for value in np.asarray(values, float).tolist()]
 
 
 def trace(time, values, name, colour, **more):

@@ -67,7 +67,7 @@ def _along(run):
     time, known = run.patch.time[kept], {name: v[kept] for name, v in known.items()}
     x = 1e3 * run.patch.values["x"][kept]
     film = {"time": rounded(time, 7), "x": _rows(x[:1] if np.ptp(x, axis=0).max() < 1e-9 else x), "of": len(run.patch.time)}
-    friction = _at(run, "contact.friction", time)
+    friction = run.at("contact.friction", time)
     pressure_unit = shown("Pa", known["pressure"])
     if friction is not None:
         film["limit"] = _rows(pressure_unit(friction[:, None] * known["pressure"]))
@@ -117,17 +117,11 @@ def _rows(values):
     return [rounded(row, 5) for row in values]
 
 
-def _at(run, name, time):
-    """A series at other times, None if it is not there."""
-    values = run.get(name)
-    return None if values is None else np.interp(time, run.time, values)
-
-
 def _readings(run, time):
     """What stands beside the film: label and one text per frame."""
     found = []
     for label, name, unit in READINGS:
-        values = _at(run, name, time)
+        values = run.at(name, time)
         if values is not None and (unit is not CELSIUS or values.any()):
             how = unit or shown(run.series[name].unit or "1", values)
             found.append([label, how.label, rounded(how(values), 4)])

@@ -70,6 +70,11 @@ class Run:
         found = self.series.get(name)
         return found.values if found is not None and np.isfinite(found.values).any() else None
 
+    def at(self, name, time):
+        """Values of a series at other times, None if there is none."""
+        values = self.get(name)
+        return None if values is None else np.interp(time, self.time, values)
+
     def has(self, *names):
         """Whether all of these are there."""
         return all(self.get(name) is not None for name in names)

@@ -1,16 +1,15 @@
 """What `python -m wheelrail report` reads: a record as NetCDF, a CSV of `wheelrail simulate --out`, the results of `train`."""
 
-import json
 import re
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
-from zipfile import ZipFile
 
 import numpy as np
-from fmpy import read_model_description
 
 from ..files import BadFile
-from ..fmu import default_path
+from ..fmu import Fmu, Refused, default_path
+from ..origin import preset_values
 from ..tables import comma, headings_of, read_table
 from ..records import of_netcdf
 from ..units import UnitError, converted, headed, unit_of
@@ -42,7 +41,9 @@ def read(path, fmu=None):
     header, columns = table(path)
     if stops.recognised(header):
         return {path.stem: _stop(path, columns)}
-    return _of_csv(path, columns, _described(fmu))
+    with _opened(fmu) as known:
+        described = {name: (v.unit or "", v.description or "") for name, v in known.variables.items()} if known else {}
+    return _of_csv(path, columns, described)
 
 
 def _netcdf(path, fmu):
@@ -67,16 +68,9 @@ def _vehicle_mass(fmu, about):
     given, name = about.get("parameters") or {}, "vehicle.mass"
     if name in given:
         return float(given[name])
-    description = _description(fmu)
-    if description is None:
-        return None
-    variable = next((v for v in description.modelVariables if v.name == name), None)
-    if variable is None or str(about.get("fmu_version")) != str(description.version):
-        return None
-    with ZipFile(fmu or default_path()) as archive:
-        path = f"resources/{about.get('preset')}.json"
-        preset = json.loads(archive.read(path)) if path in archive.namelist() else {}
-    return float(preset.get("vehicle", {}).get("mass", variable.start))
+    with _opened(fmu) as known:
+        same = known and name in known.variables and str(about.get("fmu_version")) == str(known.description.version)
+        return float(preset_values(known, about.get("preset"))[name]) if same else None
 
 
 def table(path):
@@ -122,23 +116,14 @@ def _ascending(path, time):
         raise BadFile(f"{path}: time must grow from row to row: {after}")
 
 
-def _description(fmu):
-    """The model description of the FMU at a path; without a path that of the default one, or None where that is missing."""
-    path = Path(fmu or default_path())
-    if fmu is None and not path.is_file():
-        return None
+def _opened(fmu):
+    """The FMU at a path, as a context; without a path the default one, or None where that is missing."""
+    if fmu is None and not default_path().is_file():
+        return nullcontext()
     try:
-        return read_model_description(str(path), validate=False)
-    except Exception as error:  # Whatever the libraries below say of what is no FMU.
-        raise BadFile(f"--fmu {path}: is no FMU: {first_line(error)}") from None
-
-
-def _described(fmu):
-    """Name to (unit, description) of the outputs of an FMU, nothing without one."""
-    description = _description(fmu)
-    if description is None:
-        return {}
-    return {v.name: (v.unit or "", v.description or "") for v in description.modelVariables}
+        return Fmu(fmu)
+    except (Refused, FileNotFoundError) as error:
+        raise BadFile(f"--fmu {error}") from None
 
 
 def _of_csv(path, columns, described):

@@ -10,7 +10,7 @@ from .charts import chart, trace
 from .units import CELSIUS, KMH, PERCENT, Shown, number, shown
 
 # Columns in °C of the files of `train`, and those in K of the table that they are made from.
-IN_CELSIUS = {"contact_celsius": "hottest", "tread_peak_celsius": "peak"}
+IN_CELSIUS = {column: name for name, (column, _) in report.IN_CELSIUS.items()}
 BAR = Shown("bar", 1e-5)
 
 

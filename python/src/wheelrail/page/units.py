@@ -44,18 +44,12 @@ class Shown:
 PERCENT, KMH, CELSIUS = Shown("%", 100.0), Shown("km/h", 3.6), Shown("°C", 1.0, -KELVIN)
 
 
-def largest(arrays):
-    """Largest finite amount of some arrays, 0 of nothing."""
-    found = [np.abs(a[np.isfinite(a)]).max() for a in map(np.asarray, arrays) if np.isfinite(a).any()]
-    return float(max(found, default=0.0))
-
-
 def shown(unit, *arrays):
     """The `Shown` of quantities in a unit of SI, chosen by the size of their values."""
     if unit == "K":
         return CELSIUS
     if unit in SCALES:
-        size = largest(arrays)
+        size = max((float(np.abs(a[np.isfinite(a)]).max(initial=0.0)) for a in map(np.asarray, arrays)), default=0.0)
         fits = (lambda s: size >= s[0]) if size else (lambda s: s[2] == 1.0)
         scale = next(filter(fits, SCALES[unit]), SCALES[unit][-1])
         return Shown(scale[1], scale[2])
@@ -79,7 +73,8 @@ def number(value, digits=4):
 # Units of the FMU's variables by name, for a file beside which there is no FMU.
 GUESSES = (
     (r".*position$", "m"), (r".*_(rate|ratio|share)$", ""),
-    (r"temperature\.|.*peak_temperature$|damage\.rail_peak$|profile\.temperature", "K"),
+    (r"temperature\.|.*peak_temperature$|damage\.(rail_peak|martensite_start)$|profile\.temperature|rail\.temperature$", "K"),
+    (r"thermal\.(reference|austenitisation)$|material\.(solidus|liquidus)$", "K"),
     (r".*\.(force|load)|damage\.t_gamma$", "N"),
     (r".*(moment|torque)", "N.m"), (r"heat\.|brake\.power$", "W"), (r"energy\.", "J"), (r".*pressure|profile\.shear", "Pa"),
     (r".*velocity$|.*slip(_z)?$", "m/s"), (r".*slip_direction$", "rad"), (r"contact\.spin$", "1/m"), (r"hub\..*_power$", "W"), (r"wheel\.omega$", "rad/s"),
