@@ -128,6 +128,20 @@ def test_a_team_that_is_dropped_or_waits_keeps_neither_threads_nor_wheels():
     wait_until(lambda: not any(member.is_alive() for member in members))
 
 
+def test_a_closed_team_works_on_the_calling_thread_and_keeps_no_results():
+    class Result:
+        def __init__(self, _):
+            pass
+
+    team = Team(3)
+    team.close()
+    results = team.map(Result, range(4))
+    seen = [ref(result) for result in results]
+    assert len(results) == 4
+    del results
+    wait_until(lambda: not any(result() for result in seen))
+
+
 def wait_until(condition):
     """Looks for up to ten seconds."""
     for _ in range(1000):

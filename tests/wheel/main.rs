@@ -33,6 +33,7 @@ mod sheared_steel;
 mod start;
 mod step_control;
 mod stick_slip;
+mod stored_bases;
 mod track_inputs;
 mod track_support;
 mod tread_outputs;

@@ -38,3 +38,21 @@ fn a_wheel_that_fails_stays_where_it_was_and_leaves_the_others_alone() {
     assert_eq!(wheels[1].state(), &before);
     assert!(wheels[0].time() > 0.0 && wheels[2].state() == wheels[0].state());
 }
+
+#[test]
+fn no_wheel_one_wheel_and_a_hundred_of_which_every_third_fails() {
+    let model = common::without_heat("railway", |_| {});
+    for count in [0, 1, 100] {
+        let mut inputs = vec![Inputs::rolling(model.config()); count];
+        let start = || Simulation::new(model.clone(), &Inputs::rolling(model.config())).unwrap();
+        let (first, mut wheels) = (start(), (0..count).map(|_| start()).collect::<Vec<_>>());
+        inputs.iter_mut().skip(2).step_by(3).for_each(|inputs| inputs.drive.load = f64::NAN);
+        for _ in 0..2 {
+            let results = advance_all(&mut wheels, &inputs, 1e-3);
+            assert_eq!(results.len(), count);
+            assert!(results.iter().enumerate().all(|(k, result)| result.is_err() == (k % 3 == 2)));
+        }
+        let moved = |k: usize| if k % 3 == 2 { first.state() } else { wheels[0].state() };
+        assert!(wheels.iter().enumerate().all(|(k, wheel)| wheel.state() == moved(k)));
+    }
+}

@@ -225,4 +225,83 @@ mod tests {
             }
         }
     }
+
+    /// The projection of [`MomentProjection::add`] of one kernel over all places on the displaced line, whatever it is on the
+    /// other half.
+    fn plain(projection: &MomentProjection, [at, of]: [&Tile; 2], kernel: impl Fn(f64) -> TileInfluence) -> Between {
+        let (mut sum, mut apart) = (Between::default(), TileInfluence::default());
+        if at == of {
+            apart = kernel(0.0);
+            sum.displacement[0][0] = apart.displacement;
+            sum.growth[0][0] = apart.growth;
+        }
+        for line in &projection.displaced {
+            let WeightedPlace { t, weight } = WeightedPlace::at(FRAC_PI_2 * line.ordinate);
+            let (x, ways) = (at.half_length * t, dual(&projection.bases[0], t));
+            for (WeightedPlace { t, weight: there }, part) in
+                from(&projection.forced, (x / of.half_length).clamp(-1.0, 1.0))
+            {
+                let (found, forces) = (kernel(x - of.half_length * t), dual(&projection.bases[1], t));
+                for (n, k) in (0..POINTS).flat_map(|n| (0..POINTS).map(move |k| (n, k))) {
+                    let by = FRAC_PI_2 * line.weight * weight * ways[k] * part * there * forces[n];
+                    sum.displacement[n][k] += by * (found.displacement - apart.displacement);
+                    sum.strain[n][k] += by * found.strain * at.half_length;
+                    sum.growth[n][k] += by * (found.growth - apart.growth);
+                }
+            }
+        }
+        sum
+    }
+
+    /// Lines of uneven widths, lengths and distances, their own kernels among them, and with the image of a line on the other
+    /// side of the middle.
+    #[test]
+    fn half_a_line_says_what_the_other_half_does_wherever_lines_lie() {
+        let mut state = 7_u64;
+        let mut random = |low: f64, high: f64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            low + (high - low) * (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let (projection, symmetries) = (MomentProjection::new(), [Symmetry::Even, Symmetry::Even, Symmetry::Odd]);
+        let mut worst = 0.0_f64;
+        for round in 0..40 {
+            let scale = 10_f64.powf(random(-4.0, 0.0));
+            let mut tile = || {
+                let low = random(-1.0, 1.0);
+                Tile {
+                    edges: [low, low + random(0.02, 1.0)].map(|z| scale * z),
+                    half_length: scale * random(0.05, 2.0),
+                }
+            };
+            let (at, other) = (tile(), tile());
+            let of = match round % 3 {
+                0 => at,
+                1 => Tile { edges: [at.edges[1], at.edges[1] + other.width()], ..other },
+                _ => other,
+            };
+            let kernels = |x: f64| {
+                let mut ways = at.displaced_every_way(of, x, 0.3);
+                // The image of a pair, of which only symmetric kernels are asked for.
+                ways[0].add(&at.displaced_by(of.mirrored(), x, 0.3));
+                ways
+            };
+            let mut sums = [Between::default(); 3];
+            projection.add([&at, &of], 1.0, (symmetries, kernels), sums.each_mut());
+            for (way, found) in sums.iter().enumerate() {
+                let whole = plain(&projection, [&at, &of], |x| kernels(x)[way]);
+                for (found, whole) in [
+                    (&found.displacement, &whole.displacement),
+                    (&found.strain, &whole.strain),
+                    (&found.growth, &whole.growth),
+                ] {
+                    let (found, whole) = (found.as_flattened(), whole.as_flattened());
+                    let largest = whole.iter().fold(1e-3_f64, |most, c| most.max(c.abs()));
+                    let off = found.iter().zip(whole).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+                    worst = worst.max(off / largest);
+                }
+            }
+        }
+        println!("halves differ by at most {worst:.1e}");
+        assert!(worst < 1e-10);
+    }
 }

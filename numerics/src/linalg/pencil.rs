@@ -80,7 +80,7 @@ impl Factor {
                 }
                 if i != j {
                     entries[i * size + j] = sum / entries[j * size + j];
-                } else if sum.0 > 0.0 {
+                } else if sum.0 > 0.0 && sum.0.is_finite() {
                     entries[i * size + i] = sum.sqrt();
                 } else {
                     let reason = format!("pivot {i} is {:e}", sum.0);
@@ -234,7 +234,8 @@ fn diagonalise(d: &mut [Wide], e: &mut [Wide], vectors: &mut WideRows) -> Option
             chase(d, e, [first, last], vectors);
         }
     }
-    Some(())
+    // What is no number may stand alone on the diagonal.
+    d.iter().all(|d| d.0.is_finite()).then_some(())
 }
 
 /// One step of [`diagonalise`] on the rows from the first to the last.

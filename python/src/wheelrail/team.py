@@ -46,8 +46,9 @@ class Team:
         """Results of `function` for all items, in their order. A failure is raised when all are done: an interrupt before others, else that of
         the first item that failed."""
         order = _Order(function, items)
-        for _ in self._members[: max(len(order.results) - 1, 0)]:
-            self._orders.put(order)
+        if self._dismiss.alive:  # nobody would take orders after that
+            for _ in self._members[: max(len(order.results) - 1, 0)]:
+                self._orders.put(order)
         return order.finish(self._patience)
 
     def close(self) -> None:

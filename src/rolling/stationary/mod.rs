@@ -11,6 +11,7 @@ mod settle;
 use super::control::Inputs;
 use super::decisions::Decisions;
 use super::error::StepError;
+use super::line::Line;
 use super::model::{RollingModel, Workspace};
 use super::state::State;
 use super::thermal::HeatSupply;
@@ -23,7 +24,8 @@ use std::hash::Hasher;
 /// Passes of temperatures and contact.
 const MAX_PASSES: usize = 30;
 /// Passes after which the feedback of the temperatures is averaged, unless the changes shrink by this factor from pass
-/// to pass: friction that softens and swelling that lifts parts of a very hot contact off make it go back and forth.
+/// to pass: friction that softens and swelling that lifts parts of a very hot contact off make it go back and forth. Steel that
+/// finds no yielding state then stays cold.
 const PLAIN_PASSES: usize = 5;
 const CONTRACTION: f64 = 0.5;
 /// Relative change of contact force and creepage at which temperatures and friction are settled: further passes repeat
@@ -81,13 +83,31 @@ fn settled(model: &RollingModel, tuning: &Tuning, goal: &Goal, workspace: &mut W
             Ok(Some(temperatures))
         });
         let temperatures = temperatures.collect::<Result<Vec<_>, StepError>>()?;
-        let settled = settle(model, tuning, goal, heated(model, &state.lines, temperatures), &mut steel, workspace)?;
+        let mut settle_from = |lines: &[Line], temperatures, steel: &mut Steel| {
+            settle(model, tuning, goal, heated(model, lines, temperatures), steel, workspace)
+        };
+        // Steel that was too hot to yield in a state on the way may yield in this one, or from another contact on.
+        let again = pass < PLAIN_PASSES;
+        if again {
+            steel = Steel::Yielding;
+        }
+        let mut settled = settle_from(&state.lines, temperatures, &mut steel)?;
+        if again && steel == Steel::Cold {
+            let mut other = Steel::Yielding;
+            let temperatures = settled.lines.iter().map(|line| line.thermal.clone()).collect();
+            if let Ok(state) = settle_from(&lines(model, goal), temperatures, &mut other)
+                && other == Steel::Yielding
+            {
+                (settled, steel) = (state, other);
+            }
+        }
         let before = std::mem::replace(&mut change, difference(model, &state, &settled));
         state = settled;
         if averaged > 0 || pass + 1 >= PLAIN_PASSES && change > CONTRACTION * before {
             averaged += 1;
         }
-        if change <= THERMAL_TOLERANCE {
+        // The first temperatures are those of the contact of cold steel.
+        if pass > 0 && change <= THERMAL_TOLERANCE {
             break;
         }
     }

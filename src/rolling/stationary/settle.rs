@@ -34,8 +34,8 @@ const SLIGHT: f64 = 1e-9;
 /// Share of what friction carries beyond which a contact that finds no state fails for want of adhesion.
 const NEARLY_ALL: f64 = 0.99;
 
-/// Steel of a stationary contact. On coarse meshes a very hot contact may find no state in which it yields: from then on it is
-/// that of cold steel, and the first steps yield.
+/// Steel of a stationary contact. On coarse meshes a very hot contact may find no state in which it yields: then it is that of
+/// cold steel in the passes that follow at the same temperatures, and if it stays so, the first steps yield.
 #[derive(PartialEq)]
 pub(super) enum Steel {
     Yielding,
@@ -78,9 +78,9 @@ pub(super) fn settle(
         let touching = number > 0 && state.resultant().height > 0.0;
         let pass = Pass { model, goal, friction, touching };
         let passed = pass.run(&state, &mut trial, steel, workspace, &mut next)?;
-        // Whether a speed is sought is decided from the second pass on.
-        let decided = number > 0 || goal.sought.is_none() && !goal.seeks_aside;
-        change = if decided { passed } else { f64::INFINITY };
+        // Convective terms come in with the second pass, and whether a speed is sought is decided there, too. A first one that
+        // begins with the contact of a settled state finds the same forces without them.
+        change = if number > 0 { passed } else { f64::INFINITY };
         std::mem::swap(&mut state, &mut next);
         if change <= TOLERANCE {
             break;
