@@ -28,6 +28,8 @@ const MAX_PASSES: usize = 30;
 /// finds no yielding state then stays cold.
 const PLAIN_PASSES: usize = 5;
 const CONTRACTION: f64 = 0.5;
+/// Passes in which no yielding state was found after which none is sought any more.
+const MOST_FAILURES: usize = 2;
 /// Relative change of contact force and creepage at which temperatures and friction are settled: further passes repeat
 /// rounding.
 const THERMAL_TOLERANCE: f64 = 1e-9;
@@ -65,7 +67,7 @@ fn settled(model: &RollingModel, tuning: &Tuning, goal: &Goal, workspace: &mut W
     let mut steel = Steel::Yielding;
     let mut state = settle(model, tuning, goal, lines(model, goal), &mut steel, workspace)?;
     let Some(thermal) = &model.thermal else { return Ok(state) };
-    let (mut change, mut averaged) = (f64::INFINITY, 0);
+    let (mut change, mut averaged, mut failed) = (f64::INFINITY, 0, 0);
     for pass in 0..MAX_PASSES {
         let temperatures = state.lines.iter().map(|line| {
             let contact = thermal.contact(&model.contact, &line.contact, goal.drive.temperature);
@@ -87,15 +89,17 @@ fn settled(model: &RollingModel, tuning: &Tuning, goal: &Goal, workspace: &mut W
             settle(model, tuning, goal, heated(model, lines, temperatures), steel, workspace)
         };
         // Steel that was too hot to yield in a state on the way may yield in this one, or from another contact on.
-        let again = pass < PLAIN_PASSES;
+        let again = pass < PLAIN_PASSES && failed < MOST_FAILURES;
         if again {
             steel = Steel::Yielding;
         }
         let mut settled = settle_from(&state.lines, temperatures, &mut steel)?;
         if again && steel == Steel::Cold {
+            failed += 1;
             let mut other = Steel::Yielding;
             let temperatures = settled.lines.iter().map(|line| line.thermal.clone()).collect();
-            if let Ok(state) = settle_from(&lines(model, goal), temperatures, &mut other)
+            if pass > 0
+                && let Ok(state) = settle_from(&lines(model, goal), temperatures, &mut other)
                 && other == Steel::Yielding
             {
                 (settled, steel) = (state, other);
