@@ -207,14 +207,12 @@ impl<'a> ActiveSet<'a> {
         // Iterations at the coefficients of settled states.
         let mut iteration = 0;
         while iteration < most {
-            iteration += 1;
-            if RESTARTS.contains(&iteration) {
-                for line in &mut self.lines {
-                    line.state.status.iter_mut().filter(|s| s.is_active()).for_each(|s| *s = NodeStatus::Stick);
-                    states::found_anew(line);
-                }
-            }
+            // Each correction leaves a small part of what the one before has left, so that there are few.
             if !(last < TURNING && self.correct()) {
+                iteration += 1;
+                if RESTARTS.contains(&iteration) {
+                    self.restart();
+                }
                 self.solve_linear()?;
             }
             let turned =
@@ -225,8 +223,8 @@ impl<'a> ActiveSet<'a> {
             decided += usize::from(first);
             settled = !changed && (settled || self.edges_settled() || self.stands());
             first = first && !settled;
-            let falls = missed < FALLING * last || missed <= MISSED;
-            last = if !states_changed && (settled || changed) && !turned && falls { missed } else { f64::INFINITY };
+            let corrects = !states_changed && (settled || changed) && !turned && missed < FALLING * last;
+            last = if corrects { missed } else { f64::INFINITY };
             let refined = settled && missed <= MISSED && !turned && self.lines.iter().all(states::sticks);
             let progress = match settled {
                 true if refined => Progress::Refined,
@@ -235,6 +233,10 @@ impl<'a> ActiveSet<'a> {
                 false => continue,
             };
             let obedience = laws.as_mut().map(|laws| laws.follow(&mut self.lines, progress)).transpose()?;
+            // Slips by which laws are followed are those of a linear problem with their coefficients.
+            if obedience == Some(Obedience::Moved) {
+                last = f64::INFINITY;
+            }
             match obedience.unwrap_or(Obedience::Obeyed) {
                 Obedience::Moved if settled => iteration = 0,
                 Obedience::Obeyed if refined => {
@@ -247,6 +249,14 @@ impl<'a> ActiveSet<'a> {
             }
         }
         Err(ContactError::NotConverged { iterations: most })
+    }
+
+    /// Lets all closed nodes stick, as if they had just closed.
+    fn restart(&mut self) {
+        for line in &mut self.lines {
+            line.state.status.iter_mut().filter(|s| s.is_active()).for_each(|s| *s = NodeStatus::Stick);
+            states::found_anew(line);
+        }
     }
 
     /// True if the moments balance with the lever arms of the present iterate, too: it was found with those before.
