@@ -233,7 +233,6 @@ fn friction_of_a_swaying_wheel_opposes_its_slip_after_less_than_four_linear_prob
         (worst, least) = (worst.max(askew), least.min(slips));
     }
     let problems = seen.newton as f64 / seen.steps as f64;
-    common::figure("sideways.swaying", &[problems]);
     println!("{problems:.2} linear problems a step, slip across friction {worst:.1e}, at least {least} nodes slip");
     assert!(worst < 1e-8 && least > 20 && problems < 3.8, "{problems} {worst:e}");
 }
