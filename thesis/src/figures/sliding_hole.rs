@@ -45,7 +45,7 @@ fn locked(numerics: Numerics, heat: bool, duration: f64) -> Result<Vec<Instant>,
     locked_with(numerics, duration, |config| config.thermal.enabled = heat)
 }
 
-/// The same with changes of its parameters.
+/// A locked wheel over the hole, with changes of its parameters.
 fn locked_with(
     Numerics { elements, step }: Numerics,
     duration: f64,
