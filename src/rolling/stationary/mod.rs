@@ -110,7 +110,7 @@ fn settled(model: &RollingModel, tuning: &Tuning, goal: &Goal, workspace: &mut W
         if averaged > 0 || pass + 1 >= PLAIN_PASSES && change > CONTRACTION * before {
             averaged += 1;
         }
-        // The first temperatures are those of the contact of cold steel.
+        // The first temperatures are those of the cold contact.
         if pass > 0 && change <= THERMAL_TOLERANCE {
             break;
         }

@@ -35,7 +35,7 @@ const SLIGHT: f64 = 1e-9;
 const NEARLY_ALL: f64 = 0.99;
 
 /// Steel of a stationary contact. On coarse meshes a very hot contact may find no state in which it yields: then it is that of
-/// cold steel in the passes that follow at the same temperatures, and if it stays so, the first steps yield.
+/// cold steel, and if that stays so to the end, the first steps yield.
 #[derive(PartialEq)]
 pub(super) enum Steel {
     Yielding,

@@ -38,7 +38,7 @@ fn missed(line: &ContactLine, i: usize, of: &ShearUnknown) -> f64 {
     }
     let slide = line.slide(i);
     let [along, across] = slide.direction;
-    // Without slip across the shear that is drawn the slip has this part across friction, see `super::slides`.
+    // Friction points along `q − s/b`, see `super::slides`: across it the slip is b times the shear.
     -(line.iterate.own_slip + slide.turn) * product(&line.shear(i), &[-across, along])
 }
 
