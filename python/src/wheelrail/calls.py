@@ -115,11 +115,17 @@ def _wait():
         calls.lock.acquire(timeout=max(end - monotonic(), 0.0))
 
 
+opening = RLock()
+"""Held while an FMU is opened or its library is loaded. A fork waits for it: the modules, folders and libraries that another thread had
+locked at that moment would stay locked in the process that was forked."""
+
+
 def _alone():
     """In a process that was forked there is no other thread which could hold a lock."""
+    opening.release()
     for calls in list(_living):
         calls.lock = RLock()
 
 
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_alone)
+    os.register_at_fork(before=opening.acquire, after_in_parent=opening.release, after_in_child=_alone)

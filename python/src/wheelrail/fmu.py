@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 import fmpy
 from fmpy.model_description import ScalarVariable
 
-from .calls import Calls
+from .calls import Calls, opening
 from .folder import TemporaryFolder
 from .instances import loaded, scalars
 from .records import Recorder
@@ -75,7 +75,13 @@ class Fmu(Unique):
         path = default_path() if path is None else path
         if not isinstance(path, (str, os.PathLike)):
             raise ValueError(f"Fmu({path!r}): expected the path of an FMU, or nothing")
-        self._folder = _unpacked(fmu_file(path))
+        path = fmu_file(path)
+        with opening:
+            self._folder = _unpacked(path)
+            self._read(path)
+
+    def _read(self, path):
+        """Reads the description of what was unpacked."""
         try:
             self.directory = str(self._folder.path)
             # Without a check against the schema of FMI, of which lxml makes one at a time: the tests of the packed FMU have it.

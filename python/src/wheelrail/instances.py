@@ -14,7 +14,7 @@ import fmpy
 import numpy as np
 from fmpy import fmi2, fmi3
 
-from .calls import callbacks, listener
+from .calls import callbacks, listener, opening
 from .values import Refused
 
 TYPES = {"Float64": "Real", "Int32": "Integer"}  # names that differ between the versions
@@ -67,7 +67,8 @@ class Owner:
         self.component = self.callbacks = None
         self.calls, self.freed = calls, False
         file = self.modelIdentifier + fmpy.sharedLibraryExtension
-        self.dll = CDLL(str(Path(fmu.directory, "binaries", self.PLATFORM, file).absolute()))
+        with opening:
+            self.dll = CDLL(str(Path(fmu.directory, "binaries", self.PLATFORM, file).absolute()))
         self._loadFunctions()
 
     def _call(self, name, *arguments):
