@@ -87,14 +87,31 @@ impl ContactModel {
 
     fn softest_of(&self, state: &State, line: &Line) -> Option<[f64; 2]> {
         let traction = &line.contact.traction;
-        let patch = traction.extent().filter(|_| traction.yielding.share > 0.0)?;
+        let bears = self.borne(state, line).filter(|_| traction.yielding.share > 0.0)?;
+        Some([bears, self.least_pressure(traction.resultant.height)])
+    }
+
+    /// Smallest pressure under which the steel in the patch of a line would yield at its temperatures \[Pa]; `None` if it does not
+    /// touch.
+    fn borne(&self, state: &State, line: &Line) -> Option<f64> {
+        let traction = &line.contact.traction;
+        let patch = traction.extent()?;
         let strength = &line.weakening().strength;
         let within = strength.x.iter().zip(&strength.value).filter(|(x, _)| **x > patch.low && **x < patch.high);
         let share = within.map(|(_, share)| *share).fold(1.0, f64::min);
         let standing =
             self.standing([state.motion.velocity.now, state.motion.omega.now], state.clock.last_step, traction);
-        let softest = self.yield_pressure * share * borne_in_sliding(standing, traction.friction.coefficient);
-        Some([softest, self.least_pressure(traction.resultant.height)])
+        Some(self.yield_pressure * share * borne_in_sliding(standing, traction.friction.coefficient))
+    }
+
+    /// Largest pressure of a state in which no steel yields, over what the steel of its line bears \[1], and that \[Pa].
+    pub fn overload(&self, state: &State) -> [f64; 2] {
+        let overloads = state.lines.iter().filter_map(|line| {
+            let traction = &line.contact.traction;
+            let bears = self.borne(state, line)?.max(self.least_pressure(traction.resultant.height));
+            Some([traction.pressure_max / bears, bears])
+        });
+        overloads.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or_default()
     }
 
     /// Pressure \[Pa] under which the line load of a contact \[N/m] spreads over most of the zone.

@@ -50,6 +50,18 @@ pub enum StepError {
     /// Contact and temperatures that do not come to rest at each other.
     #[error("no equilibrium: contact and temperatures do not settle")]
     Unsettled,
+    /// Steel so hot that no contact was found in which it yields.
+    #[error(
+        "no equilibrium: the steel of the contact is so hot that it bears {:.0} MPa, and no contact was found in which it yields: \
+         that of cold steel has {:.0} MPa",
+        1e-6 * bears, 1e-6 * pressure
+    )]
+    Softened {
+        /// Pressure that the steel bears \[Pa].
+        bears: f64,
+        /// Largest pressure of the contact of cold steel \[Pa].
+        pressure: f64,
+    },
     /// No steady rolling: force and moment ask for more than friction carries.
     #[error(
         "no steady rolling: {demand} {verb} a tangential force of {asked:.6e} N in the contact, where adhesion carries \

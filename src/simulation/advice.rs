@@ -63,7 +63,10 @@ pub fn failed_start(error: &StepError, config: &Config, inputs: &Inputs) -> Stri
         StepError::Unpressed { .. } => {
             "set drive.load above 0, or control.vertical = displacement to hold the hub at a height".to_owned()
         }
-        StepError::Contact { .. } | StepError::NotFinite { .. } | StepError::Unsettled => {
+        StepError::Contact { .. }
+        | StepError::NotFinite { .. }
+        | StepError::Unsettled
+        | StepError::Softened { .. } => {
             unsettled(start::gentler(config, inputs), config)
         }
         StepError::Motion(_) => config.told(&format!(

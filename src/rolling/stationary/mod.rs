@@ -30,6 +30,9 @@ const PLAIN_PASSES: usize = 5;
 const CONTRACTION: f64 = 0.5;
 /// Passes in which no yielding state was found after which none is sought any more.
 const MOST_FAILURES: usize = 2;
+/// Pressure of cold steel over what the steel bears, up to which a start is that of cold steel \[1]: the first steps yield. Beyond,
+/// they would lose most of the load.
+const MOST_OVERLOAD: f64 = 2.0;
 /// Relative change of contact force and creepage at which temperatures and friction are settled: further passes repeat
 /// rounding.
 const THERMAL_TOLERANCE: f64 = 1e-9;
@@ -115,7 +118,14 @@ fn settled(model: &RollingModel, tuning: &Tuning, goal: &Goal, workspace: &mut W
             break;
         }
     }
-    if change <= THERMAL_SCATTER { Ok(state) } else { Err(StepError::Unsettled) }
+    if change > THERMAL_SCATTER {
+        return Err(StepError::Unsettled);
+    }
+    let [overload, bears] = model.contact.overload(&state);
+    if steel == Steel::Cold && overload > MOST_OVERLOAD {
+        return Err(StepError::Softened { bears, pressure: overload * bears });
+    }
+    Ok(state)
 }
 
 /// Change from one state to the next: of the contact force relative to the load and, since a prescribed force fixes it
