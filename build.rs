@@ -17,8 +17,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         digest(&[
             "contact/src/axes.rs",
             "numerics/src/analytic.rs",
+            "numerics/src/fem",
             "numerics/src/linalg",
-            "src/fem",
             "src/material.rs",
             "src/mechanics",
         ])?

@@ -2,8 +2,9 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use wheelrail::config::{Config, Hub};
-use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatLine, HeatModel, HeatScratch, HeatState, WheelStage};
+use wheelrail::heat::{
+    Exchange, Heat, HeatLine, HeatMaterial, HeatModel, HeatParameters, HeatScratch, HeatState, WheelStage,
+};
 use wheelrail::piecewise::Interval;
 use wheelrail::piecewise::Piecewise;
 use wheelrail_numerics::linalg::vectorised::vectorised;
@@ -13,30 +14,36 @@ const SPEED: f64 = 50.0 / 3.6;
 /// Implicit part of a step of 1 ms \[s].
 const STEP: f64 = 0.3e-3;
 
-fn config() -> HeatConfig {
-    let preset = wheelrail::config::presets::parse(include_str!("../resources/paper_b.json")).expect("preset");
-    let Config { wheel, rail, material, thermal, .. } = preset;
-    let (contact_width, half_width, zone) = (1.0, HALF_WIDTH, 1.5 * HALF_WIDTH);
-    let mut config = HeatConfig {
-        wheel,
-        rail,
-        material,
-        thermal,
-        contact_width,
+fn config() -> HeatParameters {
+    let zone = 1.5 * HALF_WIDTH;
+    HeatParameters {
+        radius: 0.5,
+        hub_radius: 0.05,
+        rail_length: 1.0,
+        rail_height: 0.1,
+        material: HeatMaterial {
+            density: 8000.0,
+            specific_heat: 460.0,
+            conductivity: 45.0,
+            latent_heat: 270e3,
+            solidus: 1723.0,
+            liquidus: 1803.0,
+        },
+        widths: None,
+        reference: 293.0,
+        hub_held: true,
+        convection: 0.0,
+        conductance: 1e7,
+        heat_ratio: 0.1,
+        wheel_share: 0.5,
+        max_speed: SPEED,
+        smallest_load_ratio: 1.0,
+        contact_width: 1.0,
         elements_per_half_width: 20,
-        half_width,
+        half_width: HALF_WIDTH,
         zone,
         reach: zone,
-    };
-    (config.wheel.radius, config.wheel.hub_radius) = (0.5, 0.05);
-    (config.rail.length, config.rail.height) = (1.0, 0.1);
-    let material = &mut config.material;
-    (material.conductivity, material.specific_heat, material.density) = (45.0, 460.0, 8000.0);
-    let thermal = &mut config.thermal;
-    thermal.conductance = 1e7;
-    (thermal.heat_ratio, thermal.wheel_share, thermal.convection, thermal.hub) = (0.1, 0.5, 0.0, Hub::Fixed);
-    (thermal.max_speed, thermal.smallest_load_ratio) = (SPEED, 1.0);
-    config
+    }
 }
 
 fn heat(c: &mut Criterion) {

@@ -43,8 +43,9 @@
 //! | [`axes`] | axes of the rigid motion of the wheel, and what has a value for each | |
 //! | [`multistep`] | the time formula: derivative, history, impulse | [time-formula] |
 //! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time | |
-//! | `lru` | what is expensive to compute, kept for the steps that share it | |
+//! | [`lru`] | what is expensive to compute, kept for the steps that share it | |
 //! | [`files`] | reading of regular files of bounded size | |
+//! | [`display`] | numbers and their ranges in messages | |
 //! | [`linalg`] | sparse factorisation, vibration modes, GMRES | |
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly | |
 //! | [`mechanics`] | bodies: [`mechanics::BodyResponse`] | [ale-balance], [condensation], [damping], [rail-ends] |
@@ -76,11 +77,8 @@
 
 pub mod config;
 pub mod damage;
-pub mod fem;
 pub mod files;
 pub mod fmi;
-pub mod heat;
-mod lru;
 pub mod material;
 pub mod mechanics;
 pub mod rolling;
@@ -89,4 +87,5 @@ pub mod surface;
 pub mod wheels;
 
 pub use wheelrail_contact::{axes, contact, patch};
-pub use wheelrail_numerics::{analytic, linalg, multistep, piecewise};
+pub use wheelrail_heat::heat;
+pub use wheelrail_numerics::{analytic, display, fem, linalg, lru, multistep, piecewise};

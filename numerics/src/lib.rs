@@ -5,14 +5,20 @@
 //! | [`analytic`] | Hertz, Carter and other closed forms: start guesses and tests |
 //! | [`multistep`] | the time formula: derivative, history, impulse |
 //! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time |
+//! | [`lru`] | what is expensive to compute, kept for the steps that share it |
+//! | [`display`] | numbers and their ranges in messages |
 //! | [`linalg`] | sparse factorisation, vibration modes, GMRES, loops for vector registers |
+//! | [`fem`] | streamline-aligned graded meshes, elements, assembly |
 //!
-//! `wheelrail` has these rooms under the same names; it and the contact crate are their only users so far.
+//! `wheelrail` has these rooms under the same names; it, the contact and the heat crate are their users so far.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
 pub mod analytic;
+pub mod display;
+pub mod fem;
 pub mod linalg;
+pub mod lru;
 pub mod multistep;
 pub mod piecewise;
 

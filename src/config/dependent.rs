@@ -3,8 +3,8 @@
 use super::choices::ContactShape;
 use super::patch_rows::{PatchTable, RowsError};
 use super::table::{Config, Material};
-use super::value::{display_number, display_range};
 use crate::analytic;
+use crate::display::{display_number, display_range};
 use crate::patch::EquivalentEllipse;
 
 /// Half-width of the contact that can still be meshed [m].

@@ -24,8 +24,8 @@ pub use table::{
     BrakeParameters, Config, ContactParameters, Damping, Files, Friction, Initial, Material, MeshParameters,
     ModelParameters, Physics, Rail, SolverParameters, Thermal, Tuning, Vehicle, Wheel, WheelsetParameters,
 };
-pub use value::{display_number, display_outside, display_range};
 
+use crate::display::display_number;
 use dependent::Dependent;
 use value::{Kind, Value};
 

@@ -4,8 +4,8 @@ use super::settings::start_value;
 use super::table::{enumerations, table};
 use super::units::Measure;
 use super::variable::{Causality, Group, Kind, Reference, Value, Variable};
-use crate::config::display_number;
 use crate::config::retired::{RETIRED, Retired};
+use crate::display::display_number;
 use std::fmt::Write;
 
 /// Cells about a variable in a table for people.

@@ -5,7 +5,7 @@ use super::ramp::{RAMP_NUMBERS, RampRow, STEEPEST};
 use crate::config::row::{Level, Row};
 use crate::config::units::Measure;
 use crate::config::value::{RowValue, ValueLimits, choice, questions};
-use crate::config::{display_outside, display_range};
+use crate::display::{display_outside, display_range};
 use serde::{Deserialize, Serialize};
 
 choice! {

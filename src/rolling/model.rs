@@ -14,7 +14,7 @@ use crate::analytic;
 use crate::config::Config;
 use crate::contact::line::ContactGrid;
 use crate::contact::{ActiveSetScratch, ActiveSetSolver, LineKernel};
-use crate::heat::{HeatConfig, HeatError, HeatModel};
+use crate::heat::{HeatError, HeatModel, HeatParameters};
 use crate::material::Isotropic;
 use crate::mechanics::response::FreeResponse;
 use crate::mechanics::{self, Pair};
@@ -129,7 +129,7 @@ impl RollingModel {
     /// temperatures there is none.
     pub fn with_heat(
         mut self,
-        heat: impl FnOnce(&HeatConfig) -> Result<Box<dyn HeatModel>, HeatError>,
+        heat: impl FnOnce(&HeatParameters) -> Result<Box<dyn HeatModel>, HeatError>,
     ) -> Result<Self, ModelError> {
         if let Some(thermal) = &self.thermal {
             let margin = thermal.spacing;

@@ -7,8 +7,9 @@
 
 use super::control::{Drive, Inputs};
 use super::error::StepError;
-use crate::config::{Config, display_number};
+use crate::config::Config;
 use crate::contact::{AxisDrive, RigidMotion};
+use crate::display::display_number;
 use crate::multistep::{History, TimeDerivative};
 
 /// Hub that carries the contact sideways.

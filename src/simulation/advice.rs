@@ -136,7 +136,7 @@ fn creepage(config: &Config) -> &'static str {
 pub fn failed_preparation(error: &PrepareError, config: &Config) -> String {
     let advice = match error {
         PrepareError::Mechanics(error) | PrepareError::Model(ModelError::Mechanics(error)) => mechanics(error, config),
-        PrepareError::Model(ModelError::Heat(source)) if !matches!(source, HeatError::Config(_)) => {
+        PrepareError::Model(ModelError::Heat(source)) if !matches!(source, HeatError::Range { .. }) => {
             heat(source, config)
         }
         _ => return error.to_string(),

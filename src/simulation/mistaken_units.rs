@@ -1,8 +1,8 @@
 //! Values that look like those of another unit, by their size.
 
-use crate::config::display_number;
 use crate::config::units::{Measure, UNITS};
 use crate::config::value::Kind;
+use crate::display::display_number;
 use std::f64::consts::TAU;
 
 /// Temperature \[K] below which no wheel rolls: a lower one is probably meant in degrees Celsius.

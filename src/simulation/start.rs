@@ -1,7 +1,8 @@
 //! Obstacles to a start that was not found, in the words of the user.
 
 use super::{Drive, Inputs, STANDSTILL, Translation};
-use crate::config::{Config, display_number};
+use crate::config::Config;
+use crate::display::display_number;
 use crate::rolling::creepages::creepage;
 
 /// Loads over the nominal one between which a start is usual \[1].

@@ -3,7 +3,6 @@
 use crate::common;
 use crate::heat_common::*;
 use wheelrail::analytic::moving_source;
-use wheelrail::config::Hub;
 use wheelrail::heat::*;
 use wheelrail::piecewise::Piecewise;
 
@@ -17,7 +16,7 @@ fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
     let cases = [("elliptic", &elliptic as &dyn Fn(f64) -> f64, 7.101686e-7), ("parabolic", &parabolic, 6.35944e-7)];
     let config = with(config(1e5, v), |c| {
         (c.half_width, c.zone) = (A, 1.5 * A);
-        (c.thermal.heat_ratio, c.thermal.wheel_share) = (1.0, 0.0);
+        (c.heat_ratio, c.wheel_share) = (1.0, 0.0);
     });
     let heat = heat(&config);
     let effusivity = (config.material.conductivity * config.heat_capacity()).sqrt();
@@ -47,7 +46,7 @@ fn moving_sources_at_peclet_864_reach_the_temperatures_of_the_half_space() {
 fn bodies_that_do_not_conduct_to_each_other_warm_by_their_shares_of_the_heat() {
     let (flux, share, ratio, steps, step) = (1e8, 0.3, 0.6, 20, 5e-5);
     let config = with(config(1e5, 50.0), |c| {
-        (c.thermal.wheel_share, c.thermal.heat_ratio, c.thermal.conductance) = (share, ratio, 0.0);
+        (c.wheel_share, c.heat_ratio, c.conductance) = (share, ratio, 0.0);
     });
     let (heat, mut scratch) = (heat(&config), HeatScratch::default());
     let friction_power = Piecewise { x: vec![-A, A], value: vec![flux; 2] };
@@ -95,7 +94,7 @@ fn bodies_that_do_not_conduct_to_each_other_warm_by_their_shares_of_the_heat() {
 #[test]
 fn standing_bodies_exchange_heat_by_the_conductance_of_their_contact() {
     let (conductance, time, warm) = (2e5, 2e-5, 100.0);
-    let config = with(config(1e5, 50.0), |c| c.thermal.conductance = conductance);
+    let config = with(config(1e5, 50.0), |c| c.conductance = conductance);
     let (heat, mut scratch) = (heat(&config), HeatScratch::default());
     let exchange = Exchange { patches: vec![Interval { low: -A, high: A }], ..Exchange::default() };
     let (mut state, mut passed, steps) = (heat.initial(warm, 0.0), 0.0, 40);
@@ -118,7 +117,7 @@ fn standing_bodies_exchange_heat_by_the_conductance_of_their_contact() {
 
 #[test]
 fn a_warm_insulated_wheel_without_contact_keeps_its_temperature() {
-    let heat = heat(&with(config(1e5, 50.0), |c| c.thermal.hub = Hub::Insulated));
+    let heat = heat(&with(config(1e5, 50.0), |c| c.hub_held = false));
     let mut state = heat.initial(100.0, 0.0);
     let mut scratch = HeatScratch::default();
     let content = heat.heat_content(&state).unwrap()[0];

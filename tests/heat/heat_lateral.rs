@@ -2,7 +2,6 @@
 
 use crate::heat_common::*;
 use std::f64::consts::PI;
-use wheelrail::config::CrossSection;
 use wheelrail::heat::*;
 use wheelrail::piecewise::Piecewise;
 
@@ -27,12 +26,12 @@ fn lines() -> [f64; 4] {
     WEIGHT.map(|weight| weight * B)
 }
 
-fn thick(rail: bool) -> HeatConfig {
+fn thick(rail: bool) -> HeatParameters {
     with(config(1e5, 20.0), |c| {
         (c.half_width, c.zone, c.reach) = (A, 1.5 * A, 1.5 * A);
         c.elements_per_half_width = 10;
-        (c.thermal.heat_ratio, c.thermal.cross_section) = (1.0, CrossSection::Contact);
-        c.thermal.wheel_share = if rail { 0.0 } else { 1.0 };
+        (c.heat_ratio, c.widths) = (1.0, None);
+        c.wheel_share = if rail { 0.0 } else { 1.0 };
     })
 }
 

@@ -92,7 +92,7 @@ fn lines_in_one_step_are_the_lines_alone() {
 #[test]
 fn a_line_that_melts_leaves_the_others_alone() {
     let (load, v) = (1e5, 50.0 * KMH);
-    let heat = heat(&with(config(load, 1.1 * v), |c| c.thermal.heat_ratio = 1.0));
+    let heat = heat(&with(config(load, 1.1 * v), |c| c.heat_ratio = 1.0));
     let a = half_width(load);
     let found = compare("melting", &heat, 30, 1e-3, |k| {
         let hot = if k < 20 { 2.5e9 } else { 0.0 };

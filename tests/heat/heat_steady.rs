@@ -2,7 +2,6 @@
 
 use crate::common;
 use crate::heat_common::*;
-use wheelrail::config::Hub;
 use wheelrail::heat::*;
 
 /// Prints name, value, reference; then asserts the relative deviation accepted for each.
@@ -21,7 +20,13 @@ fn compare(name: &str, pairs: &[(&str, f64, f64, f64)]) {
     }
 }
 
-fn stationary(name: &str, config: &HeatConfig, v: f64, omega: f64, exchange: &Exchange) -> (Temperatures, HeatFlows) {
+fn stationary(
+    name: &str,
+    config: &HeatParameters,
+    v: f64,
+    omega: f64,
+    exchange: &Exchange,
+) -> (Temperatures, HeatFlows) {
     let heat = heat(config);
     let (state, flows) = heat.stationary(v, omega, exchange).unwrap();
     common::round_off("heat.steady.balance", &[flows.relative_imbalance()], 1e-11);
@@ -104,7 +109,7 @@ fn rail_chill() {
             sources: brake_blocks(60.0),
             ..Exchange::default()
         };
-        let config = with(config(1e4, v), |c| c.thermal.hub = Hub::Insulated);
+        let config = with(config(1e4, v), |c| c.hub_held = false);
         let (t, f) = stationary(&name, &config, v, omega(v, 0.0), &exchange);
         compare(
             &name,
@@ -148,7 +153,7 @@ fn contact_edges_between_nodes_cost_little_accuracy() {
     let (v, creepage) = (50.0 * KMH, -8e-4);
     for nominal in [0.6e5, 0.8e5, 0.93e5, 1.1e5, 1.5e5, 2e5] {
         let config = with(config(nominal, 100.0 * KMH), |c| {
-            c.thermal.smallest_load_ratio = 1e5_f64.min(nominal) / nominal;
+            c.smallest_load_ratio = 1e5_f64.min(nominal) / nominal;
             c.zone = 1.6 * half_width(1.1e5);
             c.reach = c.zone;
         });

@@ -1,7 +1,6 @@
 //! Steps: order in time, any size, balances, restored states; conservative resampling; refused input.
 
 use crate::heat_common::*;
-use wheelrail::config::Hub;
 use wheelrail::heat::*;
 use wheelrail::piecewise::Piecewise;
 
@@ -67,8 +66,8 @@ fn under_varying_exchange_held_over_the_steps_the_order_is_one() {
 fn steps_from_a_microsecond_to_500_seconds_stay_finite_and_balance() {
     let configs = [
         config(1e5, 50.0 * KMH),
-        with(config(1e5, 50.0 * KMH), |c| (c.thermal.hub, c.thermal.convection) = (Hub::Insulated, 30.0)),
-        with(config(1e4, 80.0), |c| c.thermal.wheel_share = 0.8),
+        with(config(1e5, 50.0 * KMH), |c| (c.hub_held, c.convection) = (false, 30.0)),
+        with(config(1e4, 80.0), |c| c.wheel_share = 0.8),
     ];
     for config in configs {
         let load = if config.half_width < 5e-4 { 1e4 } else { 1e5 };
@@ -204,9 +203,9 @@ fn bad_input_is_refused_by_name_with_its_value() {
     let bad = Exchange { patches: vec![Interval { low: 1e-4, high: -1e-4 }], ..good.clone() };
     refuse(1e-3, 14.0, 28.0, &bad, "contact patch from 0.0001 m to -0.0001 m");
     for (config, word) in [
-        (with(config(1e5, 20.0), |c| c.rail.length = 1e-3), "rail.length = 0.001"),
-        (HeatConfig { half_width: f64::NAN, ..config(1e5, 20.0) }, "half-width at model.nominal_load = NaN"),
-        (with(config(1e5, 20.0), |c| c.thermal.smallest_load_ratio = 1e-6), "thermal.smallest_load_ratio"),
+        (with(config(1e5, 20.0), |c| c.rail_length = 1e-3), "rail.length = 0.001"),
+        (HeatParameters { half_width: f64::NAN, ..config(1e5, 20.0) }, "half-width at model.nominal_load = NaN"),
+        (with(config(1e5, 20.0), |c| c.smallest_load_ratio = 1e-6), "thermal.smallest_load_ratio"),
     ] {
         let message = Heat::new(&config).unwrap_err().to_string();
         println!("{message}");
@@ -216,7 +215,7 @@ fn bad_input_is_refused_by_name_with_its_value() {
 
 #[test]
 fn heat_without_a_way_out_has_no_stationary_state() {
-    let closed = heat(&with(config(1e5, 20.0), |c| c.thermal.hub = Hub::Insulated));
+    let closed = heat(&with(config(1e5, 20.0), |c| c.hub_held = false));
     let a = half_width(1e5);
     let patches = vec![Interval { low: -a, high: a }];
     let heating = Exchange { sources: brake_blocks(60.0), patches, ..Exchange::default() };
@@ -237,7 +236,7 @@ fn a_state_of_another_mesh_is_refused() {
 #[test]
 fn rail_ahead_of_the_contact_is_not_undercooled_wherever_the_edge_lies() {
     let speed = 50.0 * KMH;
-    let heat = heat(&with(config(1e5, speed), |c| c.thermal.conductance = 1e8));
+    let heat = heat(&with(config(1e5, speed), |c| c.conductance = 1e8));
     let a = half_width(1e5);
     for shift in [0.0, 0.004, 0.011, 0.023, 0.037, 0.049] {
         let patches = vec![Interval { low: -a * (1.0 - shift), high: a * (1.0 + shift) }];

@@ -3,37 +3,36 @@
 use crate::common;
 use crate::heat_common::{self, KMH, Run, config, with};
 use std::f64::consts::PI;
-use wheelrail::config::Hub;
-use wheelrail::heat::{Exchange, Heat, HeatConfig, HeatModel, HeatScratch, HeatSource, HeatState};
+use wheelrail::heat::{Exchange, Heat, HeatModel, HeatParameters, HeatScratch, HeatSource, HeatState};
 
 const FLUX: f64 = 2e8;
 
-fn molten_steel() -> HeatConfig {
+fn molten_steel() -> HeatParameters {
     with(config(1e6, 200.0 * KMH), |c| {
         // Even heat knows no cells along the tread: temperatures and thicknesses are those of 20 elements in every
         // digit.
         c.elements_per_half_width = 4;
-        c.thermal.reference = 293.0;
+        c.reference = 293.0;
         (c.material.solidus, c.material.liquidus, c.material.latent_heat) = (1723.0, 1803.0, 270e3);
     })
 }
 
 /// Even heat on the whole tread of a standing wheel without contact.
-fn even_heat(config: &HeatConfig) -> Exchange {
+fn even_heat(config: &HeatParameters) -> Exchange {
     let width = 2.0 * PI;
-    let heat = FLUX * width * config.wheel.radius;
+    let heat = FLUX * width * config.radius;
     Exchange { sources: vec![HeatSource::on_tread(0.0, width, heat)], ..Exchange::default() }
 }
 
 /// Conductivity, heat capacity, solidus, mushy interval, latent heat over specific heat.
-fn constants(c: &HeatConfig) -> [f64; 5] {
+fn constants(c: &HeatParameters) -> [f64; 5] {
     let m = &c.material;
-    let solidus = m.solidus - c.thermal.reference;
+    let solidus = m.solidus - c.reference;
     [m.conductivity, m.density * m.specific_heat, solidus, m.liquidus - m.solidus, m.latent_heat / m.specific_heat]
 }
 
 /// Surface temperature and molten thickness at `times` from explicit finite volumes of the heat content.
-fn enthalpy_solution(c: &HeatConfig, times: &[f64]) -> Vec<[f64; 2]> {
+fn enthalpy_solution(c: &HeatParameters, times: &[f64]) -> Vec<[f64; 2]> {
     let [conductivity, capacity, solidus, interval, latent] = constants(c);
     let (cell, depth) = (2e-6, 3e-3);
     let mut content = vec![0.0; (depth / cell) as usize];
@@ -82,7 +81,7 @@ fn heat_model(heat: &Heat, times: &[f64], steps: usize) -> (Vec<[f64; 2]>, f64) 
 }
 
 /// Time at which a half-space under a constant flux begins to melt, `π k ρc T²/(4 q²)`.
-fn start_of_melting(config: &HeatConfig) -> f64 {
+fn start_of_melting(config: &HeatParameters) -> f64 {
     let [conductivity, capacity, solidus, ..] = constants(config);
     PI * conductivity * capacity * solidus.powi(2) / (4.0 * FLUX * FLUX)
 }
@@ -94,7 +93,7 @@ fn melting_begins_when_the_closed_form_reaches_the_solidus() {
     let (seen, _) = heat_model(&Heat::new(&config).unwrap(), &[0.97 * start, 1.05 * start], 100);
     println!("start {start:.4e} s: {seen:?}");
     assert!(seen[0][1] == 0.0 && seen[1][1] > 0.0);
-    let expected = (config.material.solidus - config.thermal.reference) * 0.97_f64.sqrt();
+    let expected = (config.material.solidus - config.reference) * 0.97_f64.sqrt();
     assert!((seen[0][0] / expected - 1.0).abs() < 2e-3, "{} K, closed form {expected} K", seen[0][0]);
 }
 
@@ -126,7 +125,7 @@ fn surface_and_molten_thickness_under_a_constant_flux_are_those_of_a_fine_enthal
 #[test]
 fn molten_steel_that_cools_freezes_and_gives_its_latent_heat_back() {
     // A held hub would take the little heat that coarse deep layers let through.
-    let config = with(molten_steel(), |c| c.thermal.hub = Hub::Insulated);
+    let config = with(molten_steel(), |c| c.hub_held = false);
     let heat = Heat::new(&config).unwrap();
     let start = start_of_melting(&config);
     let (mut state, mut scratch) = (heat.initial(0.0, 0.0), HeatScratch::default());
@@ -135,7 +134,7 @@ fn molten_steel_that_cools_freezes_and_gives_its_latent_heat_back() {
             heat.advance(&mut state, 0.05 * start, 0.0, 0.0, &exchange, &mut scratch);
         }
     }
-    let supplied = FLUX * 2.0 * PI * config.wheel.radius * 3.0 * start;
+    let supplied = FLUX * 2.0 * PI * config.radius * 3.0 * start;
     let stored = heat.heat_content(&state).unwrap()[0];
     assert_eq!(heat.temperatures(&state).melted, [0.0; 2]);
     assert!((stored / supplied - 1.0).abs() < 1e-10, "{stored} J/m of {supplied} J/m");
@@ -144,7 +143,7 @@ fn molten_steel_that_cools_freezes_and_gives_its_latent_heat_back() {
 /// A rail that runs under a hot standing wheel carries molten steel away, and the stream holds the heat balance.
 #[test]
 fn a_restored_molten_state_continues_bit_for_bit_and_balances_its_heat() {
-    let config = with(molten_steel(), |c| c.thermal.heat_ratio = 1.0);
+    let config = with(molten_steel(), |c| c.heat_ratio = 1.0);
     let heat = Heat::new(&config).unwrap();
     let exchange = heat_common::carter(1e6, 60.0 * KMH, 2.0);
     let (mut state, mut scratch) = (heat.initial(0.0, 0.0), HeatScratch::default());

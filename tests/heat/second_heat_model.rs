@@ -6,7 +6,7 @@ use crate::common::{self, preset};
 use std::f64::consts::PI;
 use wheelrail::config::{Config, Response, StartTemperature};
 use wheelrail::heat::{
-    Exchange, HeatConfig, HeatError, HeatFlows, HeatLine, HeatModel, HeatScratch, HeatState, Observation,
+    Exchange, HeatError, HeatFlows, HeatLine, HeatModel, HeatParameters, HeatScratch, HeatState, Observation,
     TemperatureField, Temperatures,
 };
 use wheelrail::mechanics::{Basis, bodies};
@@ -39,13 +39,13 @@ struct FlashModel {
 }
 
 impl FlashModel {
-    fn new(config: &HeatConfig) -> Self {
+    fn new(config: &HeatParameters) -> Self {
         let place = |i: usize| config.reach * (i as f64 / POINTS as f64 - 1.0);
-        let (outer, inner) = (config.wheel.radius, config.wheel.hub_radius);
+        let (outer, inner) = (config.radius, config.hub_radius);
         Self {
             zone: (0..=2 * POINTS).map(place).collect(),
             radius: outer,
-            heat_ratio: config.thermal.heat_ratio,
+            heat_ratio: config.heat_ratio,
             effusivity: (config.material.conductivity * config.heat_capacity()).sqrt(),
             capacity: config.heat_capacity() * PI * (outer * outer - inner * inner),
         }

@@ -8,6 +8,7 @@ use wheelrail::config::value::{Kind, Value};
 use wheelrail::config::{Config, StartTemperature};
 use wheelrail::heat::*;
 use wheelrail::piecewise::Piecewise;
+use wheelrail::rolling::thermal::heat_parameters;
 use wheelrail::simulation::advice::{failed_preparation, failed_start, failed_step};
 use wheelrail::simulation::{Inputs, Model, Rotation, Simulation, Translation};
 
@@ -185,7 +186,7 @@ fn temperatures_of_random_parameter_sets_stay_within_their_bounds_or_the_step_is
 }
 
 /// A contact with random patch and friction heat that lies in the zone of the model.
-fn exchange(c: &HeatConfig, random: &mut Random) -> Exchange {
+fn exchange(c: &HeatParameters, random: &mut Random) -> Exchange {
     let half = c.half_width * random.between(0.3, 1.2).min(0.9 * c.zone / c.half_width);
     let centre = random.sign() * random.between(0.0, 0.9 * c.zone - half);
     let ellipse = |x: f64| (1.0 - ((x - centre) / half).powi(2)).max(0.0).sqrt();
@@ -207,31 +208,19 @@ fn heat_model_keeps_random_runs_above_the_coldest_datum_and_keeps_their_heat() {
     let (mut wrong, mut completed, mut lowest) = (Vec::new(), 0, 0.0_f64);
     for seed in 0..sets {
         let (config, mut random, text) = set(seed);
-        let Config { wheel, rail, material, thermal, .. } = config.clone();
-        let half_width = random.of(&[1e-3, 3e-3, 6e-3]);
-        let (zone, elements_per_half_width) = (1.5 * half_width, 4);
-        let (contact_width, reach) = (config.model.contact_width, zone);
-        let config = HeatConfig {
-            wheel,
-            rail,
-            material,
-            thermal,
-            contact_width,
-            elements_per_half_width,
-            half_width,
-            zone,
-            reach,
-        };
+        let (half_width, bulk) = (random.of(&[1e-3, 3e-3, 6e-3]), config.thermal.wheel_excess);
+        let (contact_width, zone) = (config.model.contact_width, 1.5 * half_width);
+        let parameters = heat_parameters(&config, half_width, zone, zone);
+        let config = HeatParameters { contact_width, elements_per_half_width: 4, ..parameters };
         let Ok(heat) = Heat::new(&config) else { continue };
-        let bulk = config.thermal.wheel_excess;
         let (mut state, mut scratch, mut speed) = (heat.initial(bulk, 0.0), HeatScratch::default(), 30.0);
         let mut acting = exchange(&config, &mut random);
-        let mut omega = speed / config.wheel.radius;
+        let mut omega = speed / config.radius;
         for step in 0..STEPS {
             if random.below(5) == 0 {
                 acting = exchange(&config, &mut random);
                 speed = random.sign() * random.of(&[0.0, 1e-3, 1.0, 20.0, 60.0]);
-                omega = random.of(&[0.0, 0.9, 1.0, 1.2]) * speed / config.wheel.radius;
+                omega = random.of(&[0.0, 0.9, 1.0, 1.2]) * speed / config.radius;
             }
             let dt = random.logarithmic(1e-6, 1e-1);
             let mut next = HeatState::default();

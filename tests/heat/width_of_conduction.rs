@@ -3,31 +3,26 @@
 use crate::common;
 use crate::heat_common::{self, Run, deviation, heat};
 use std::f64::consts::PI;
-use wheelrail::analytic::hertz_half_width;
-use wheelrail::config::{CrossSection, Hub};
-use wheelrail::heat::{Exchange, HeatConfig, HeatModel, HeatScratch, HeatSource};
+use wheelrail::analytic::{contact_modulus, hertz_half_width};
+use wheelrail::config::Hub;
+use wheelrail::heat::{Exchange, HeatModel, HeatParameters, HeatScratch, HeatSource, Widths};
 use wheelrail::piecewise::Piecewise;
+use wheelrail::rolling::thermal::heat_parameters;
 use wheelrail::simulation::{Inputs, Simulation};
 
 /// The heat model of the default parameters with an insulated hub, for a contact of the given width \[m].
-fn config(contact_width: f64) -> HeatConfig {
+fn config(contact_width: f64) -> HeatParameters {
     let mut config = common::preset("railway", 10);
     config.thermal.hub = Hub::Insulated;
-    let wheelrail::config::Config { wheel, rail, material, thermal, .. } = config;
-    let modulus = wheelrail::analytic::contact_modulus(material.youngs_modulus, material.poissons_ratio);
-    let half_width = hertz_half_width(100e3 / 0.014, wheel.radius, modulus);
+    let modulus = contact_modulus(config.material.youngs_modulus, config.material.poissons_ratio);
+    let half_width = hertz_half_width(100e3 / 0.014, config.wheel.radius, modulus);
     let zone = 1.5 * half_width;
-    HeatConfig {
-        wheel,
-        rail,
-        material,
-        thermal,
-        contact_width,
-        elements_per_half_width: 10,
-        half_width,
-        zone,
-        reach: zone,
-    }
+    HeatParameters { contact_width, elements_per_half_width: 10, ..heat_parameters(&config, half_width, zone, zone) }
+}
+
+/// Widths of the bodies.
+fn widths(c: &mut HeatParameters) -> &mut Widths {
+    c.widths.as_mut().unwrap()
 }
 
 /// `∫ f dx` from 0 to `end` by the midpoint rule.
@@ -66,13 +61,13 @@ fn mean_of_the_strip(w: f64, time: f64, diffusivity: f64, heat_capacity: f64) ->
 fn mean_temperature_of_a_strip_on_a_half_space_is_right_within_3_percent_up_to_60_seconds() {
     for width in [0.003, 0.005, 0.014, 0.04] {
         let config = heat_common::with(config(width), |c| {
-            (c.wheel.radius, c.wheel.hub_radius) = (20.0, 18.0);
-            (c.thermal.rim_width, c.thermal.rim_depth, c.thermal.block_width) = (10.0, 2.0, width);
+            (c.radius, c.hub_radius) = (20.0, 18.0);
+            *widths(c) = Widths { rim: 10.0, rim_depth: 2.0, block: width, boss: 10.0 * 0.17 / 0.135, ..*widths(c) };
         });
         let heat = heat(&config);
         let (mut state, mut scratch) = (heat.initial(0.0, 0.0), HeatScratch::default());
         // 1 W/m² all around.
-        let sources = vec![HeatSource::on_tread(0.0, 2.0 * PI, 2.0 * PI * config.wheel.radius)];
+        let sources = vec![HeatSource::on_tread(0.0, 2.0 * PI, 2.0 * PI * config.radius)];
         let exchange = Exchange { sources, ..Exchange::default() };
         let (mut time, mut worst) = (0.0, 0.0_f64);
         for after in [1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0, 20.0, 60.0] {
@@ -93,18 +88,16 @@ fn mean_temperature_of_a_strip_on_a_half_space_is_right_within_3_percent_up_to_6
 /// than the real rim, whose flanks are further from the contact; the web is shorter by that.
 #[test]
 fn a_warm_wheel_holds_the_heat_of_its_rim_web_and_boss() {
-    let content = |config: &HeatConfig| {
+    let content = |config: &HeatParameters| {
         let heat = heat(config);
         heat.heat_content(&heat.initial(1.0, 0.0)).unwrap()[0] * config.contact_width / config.heat_capacity()
     };
     let config = config(0.014);
-    let (r, t) = (config.wheel.radius, &config.thermal);
+    let (r, t) = (config.radius, config.widths.unwrap());
     let ring = |outer: f64, inner: f64| PI * (outer * outer - inner * inner);
     let inside = r - t.rim_depth;
-    let rim = t.rim_width * ring(r, inside);
-    let whole = rim
-        + t.web_width * ring(inside, t.boss_radius)
-        + t.rim_width * t.boss * ring(t.boss_radius, config.wheel.hub_radius);
+    let rim = t.rim * ring(r, inside);
+    let whole = rim + t.web * ring(inside, t.boss_radius) + t.boss * ring(t.boss_radius, config.hub_radius);
     let mass = config.material.density * content(&config);
     println!(
         "{mass:.1} kg, {:.1} kg of it rim; drawn {:.1} kg",
@@ -113,13 +106,11 @@ fn a_warm_wheel_holds_the_heat_of_its_rim_web_and_boss() {
     );
     assert!((content(&config) / whole - 1.0).abs() < 0.05);
     // Next to nothing but rim.
-    let alone = heat_common::with(config.clone(), |c| {
-        (c.thermal.web_width, c.thermal.boss) = (1e-4, 1e-4 / c.thermal.rim_width)
-    });
-    let bare = 1e-4 * ring(inside, config.wheel.hub_radius);
+    let alone = heat_common::with(config.clone(), |c| (widths(c).web, widths(c).boss) = (1e-4, 1e-4));
+    let bare = 1e-4 * ring(inside, config.hub_radius);
     assert!((content(&alone) / (rim + bare) - 1.0).abs() < 2e-3, "{}", content(&alone) / rim);
-    let narrow = heat_common::with(config.clone(), |c| c.thermal.cross_section = CrossSection::Contact);
-    let slice = 0.014 * ring(r, config.wheel.hub_radius);
+    let narrow = heat_common::with(config.clone(), |c| c.widths = None);
+    let slice = 0.014 * ring(r, config.hub_radius);
     assert!((content(&narrow) / slice - 1.0).abs() < 1e-12);
     // At next to no cost.
     let unknowns = [&config, &narrow].map(|config| heat(config).unknowns());
@@ -131,9 +122,9 @@ fn a_warm_wheel_holds_the_heat_of_its_rim_web_and_boss() {
 /// heat spreads the rail is as wide as its head.
 #[test]
 fn web_boss_and_head_hold_the_heat_of_their_own_widths() {
-    let content = |body: usize, change: &dyn Fn(&mut HeatConfig)| {
+    let content = |body: usize, change: &dyn Fn(&mut HeatParameters)| {
         let config = heat_common::with(config(0.014), |c| {
-            (c.thermal.rim_width, c.thermal.web_width, c.thermal.boss) = (0.014, 0.014, 1.0);
+            *widths(c) = Widths { rim: 0.014, web: 0.014, boss: 0.014, ..*widths(c) };
             change(c);
         });
         let heat = heat(&config);
@@ -141,10 +132,10 @@ fn web_boss_and_head_hold_the_heat_of_their_own_widths() {
     };
     let ring = |outer: f64, inner: f64| PI * (outer * outer - inner * inner);
     let even = content(0, &|_| ());
-    let web = content(0, &|c| c.thermal.web_width = 0.028) - even;
-    let boss = content(0, &|c| c.thermal.boss = 2.0) - even;
-    let tall = |height: f64| content(1, &|c| c.rail.height = height);
-    let (head, length) = (tall(0.12) - tall(0.1), config(0.014).rail.length);
+    let web = content(0, &|c| widths(c).web = 0.028) - even;
+    let boss = content(0, &|c| widths(c).boss = 0.028) - even;
+    let tall = |height: f64| content(1, &|c| c.rail_height = height);
+    let (head, length) = (tall(0.12) - tall(0.1), config(0.014).rail_length);
     for (name, found, expected) in [
         ("wheel", even, 0.014 * ring(0.46, 0.046)),
         ("web", web, 0.014 * ring(0.46 - 0.06, 0.13)),
@@ -159,13 +150,13 @@ fn web_boss_and_head_hold_the_heat_of_their_own_widths() {
 /// Area of tread, rim sides and both sides of the web times the coefficient.
 #[test]
 fn a_warm_wheel_loses_heat_to_the_air_from_tread_rim_and_web() {
-    let config = heat_common::with(config(0.014), |c| c.thermal.convection = 20.0);
+    let config = heat_common::with(config(0.014), |c| c.convection = 20.0);
     let heat = heat(&config);
     let mut state = heat.initial(100.0, 0.0);
     let flows = heat.advance(&mut state, 1e-3, 10.0, 20.0, &Exchange::default(), &mut HeatScratch::default());
-    let (r, t) = (config.wheel.radius, &config.thermal);
+    let (r, t) = (config.radius, config.widths.unwrap());
     let ring = |outer: f64, inner: f64| PI * (outer * outer - inner * inner);
-    let area = 2.0 * PI * r * t.rim_width + 2.0 * ring(r, t.boss_radius);
+    let area = 2.0 * PI * r * t.rim + 2.0 * ring(r, t.boss_radius);
     let ratio = flows.wheel_to_air * config.contact_width / (20.0 * 100.0 * area);
     println!("{:.1} W from {area:.3} m2, ratio {ratio:.4}", flows.wheel_to_air * config.contact_width);
     assert!((ratio - 1.0).abs() < 1e-3, "{ratio}");
@@ -178,9 +169,9 @@ fn a_warm_wheel_loses_heat_to_the_air_from_tread_rim_and_web() {
 #[test]
 fn the_flash_temperature_loses_little_to_the_sides() {
     for speed in [10.0, 30.0, 60.0] {
-        let rise = |cross_section: CrossSection| {
+        let rise = |spreads: bool| {
             let config = heat_common::with(config(0.014), |c| {
-                (c.thermal.cross_section, c.thermal.wheel_share) = (cross_section, 0.0);
+                (c.widths, c.wheel_share) = (c.widths.filter(|_| spreads), 0.0);
             });
             let (heat, a) = (heat(&config), config.half_width);
             let power = |x: f64| 2e6 * speed * (1.0 - (x / a).powi(2)).max(0.0).sqrt();
@@ -189,7 +180,7 @@ fn the_flash_temperature_loses_little_to_the_sides() {
             let (state, _) = heat.stationary(speed, 0.0, &exchange).unwrap();
             heat.temperatures(&state).rail_max
         };
-        let off = rise(CrossSection::Bodies) / rise(CrossSection::Contact) - 1.0;
+        let off = rise(true) / rise(false) - 1.0;
         let config = config(0.014);
         // The hottest place lies 0.65 a behind the middle.
         let time = 1.65 * config.half_width / speed;

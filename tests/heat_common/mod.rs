@@ -2,10 +2,9 @@
 #![allow(dead_code)]
 
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
-use wheelrail::config::{Config, Hub};
 use wheelrail::heat::{
-    Exchange, Heat, HeatConfig, HeatFlows, HeatLine, HeatModel, HeatScratch, HeatSource, HeatState, Observation,
-    Temperatures,
+    Exchange, Heat, HeatFlows, HeatLine, HeatMaterial, HeatModel, HeatParameters, HeatScratch, HeatSource, HeatState,
+    Observation, Temperatures,
 };
 pub use wheelrail::piecewise::Interval;
 use wheelrail::piecewise::Piecewise;
@@ -21,35 +20,41 @@ pub fn half_width(load: f64) -> f64 {
 }
 
 /// Set-up of the reference values, laid out for one load [N/m] and up to `max_speed` [m/s].
-pub fn config(load: f64, max_speed: f64) -> HeatConfig {
-    let preset = wheelrail::config::presets::parse(include_str!("../../resources/paper_b.json")).unwrap();
-    let Config { wheel, rail, material, thermal, .. } = preset;
+pub fn config(load: f64, max_speed: f64) -> HeatParameters {
     let half_width = half_width(load);
     let zone = 1.5 * half_width;
-    let mut config = HeatConfig {
-        wheel,
-        rail,
-        material,
-        thermal,
+    HeatParameters {
+        radius: RADIUS,
+        hub_radius: 0.05,
+        rail_length: 1.0,
+        rail_height: 0.1,
+        material: HeatMaterial {
+            density: 8000.0,
+            specific_heat: 460.0,
+            conductivity: 45.0,
+            latent_heat: 270e3,
+            solidus: 1723.0,
+            liquidus: 1803.0,
+        },
+        widths: None,
+        reference: 293.0,
+        hub_held: true,
+        convection: 0.0,
+        conductance: 1e7,
+        heat_ratio: 0.1,
+        wheel_share: 0.5,
+        max_speed,
+        smallest_load_ratio: 1.0,
         contact_width: 1.0,
         elements_per_half_width: 20,
         half_width,
         zone,
         reach: zone,
-    };
-    (config.wheel.radius, config.wheel.hub_radius) = (RADIUS, 0.05);
-    (config.rail.length, config.rail.height) = (1.0, 0.1);
-    let material = &mut config.material;
-    (material.conductivity, material.specific_heat, material.density) = (45.0, 460.0, 8000.0);
-    let thermal = &mut config.thermal;
-    thermal.conductance = 1e7;
-    (thermal.heat_ratio, thermal.wheel_share, thermal.convection, thermal.hub) = (0.1, 0.5, 0.0, Hub::Fixed);
-    (thermal.max_speed, thermal.smallest_load_ratio) = (max_speed, 1.0);
-    config
+    }
 }
 
-/// A configuration with changes.
-pub fn with(mut config: HeatConfig, change: impl FnOnce(&mut HeatConfig)) -> HeatConfig {
+/// Parameters with changes.
+pub fn with(mut config: HeatParameters, change: impl FnOnce(&mut HeatParameters)) -> HeatParameters {
     change(&mut config);
     config
 }
@@ -138,7 +143,7 @@ pub fn brake_blocks(total: f64) -> Vec<HeatSource> {
     [1.0, -1.0].map(|side| HeatSource::on_tread(side * FRAC_PI_2, FRAC_PI_4, 0.5 * total)).to_vec()
 }
 
-pub fn heat(config: &HeatConfig) -> Heat {
+pub fn heat(config: &HeatParameters) -> Heat {
     Heat::new(config).unwrap()
 }
 

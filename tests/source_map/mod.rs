@@ -41,7 +41,8 @@ enum Place {
 }
 
 /// Crates of the workspace that hold rooms of the product, from the ground up, and where their source lies.
-pub const MEMBERS: [(&str, &str); 2] = [("wheelrail_numerics", "numerics/src/"), ("wheelrail_contact", "contact/src/")];
+pub const MEMBERS: [(&str, &str); 3] =
+    [("wheelrail_numerics", "numerics/src/"), ("wheelrail_contact", "contact/src/"), ("wheelrail_heat", "heat/src/")];
 
 /// The member of this name.
 fn member(name: &str) -> Option<&'static str> {

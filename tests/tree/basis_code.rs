@@ -8,8 +8,8 @@ use wheelrail::mechanics::basis::CODE;
 const SOURCES: [&str; 6] = [
     "contact/src/axes.rs",
     "numerics/src/analytic.rs",
+    "numerics/src/fem",
     "numerics/src/linalg",
-    "src/fem",
     "src/material.rs",
     "src/mechanics",
 ];

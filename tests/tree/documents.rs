@@ -36,7 +36,7 @@ fn paths(text: &str) -> impl Iterator<Item = &str> {
 
 /// True for a word that is a path of this repository.
 fn is_path(word: &str) -> bool {
-    const ROOMS: [&str; 12] = [
+    const ROOMS: [&str; 13] = [
         "src/",
         "tests/",
         "docs/",
@@ -48,6 +48,7 @@ fn is_path(word: &str) -> bool {
         "python/",
         "contact/src/",
         "contact/tests/",
+        "heat/src/",
         "numerics/src/",
     ];
     ROOMS.iter().any(|room| word.starts_with(room))

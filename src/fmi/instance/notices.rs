@@ -1,7 +1,8 @@
 //! Warnings of what a user should know although no call fails: each is given once in a run, by name, with a remedy.
 
 use super::partners::{idle, is_reaction, is_used};
-use crate::config::{Config, display_number};
+use crate::config::Config;
+use crate::display::display_number;
 use crate::fmi::presets;
 use crate::fmi::settings::{Settings, of_preset, start_value};
 use crate::fmi::table::{find, named};

@@ -1,9 +1,9 @@
 //! Exchange of the contact with the temperature fields.
 
-use crate::config::Config;
+use crate::config::{Config, CrossSection, Hub};
 use crate::contact::Traction;
 use crate::contact::film;
-use crate::heat::{Exchange, HeatConfig};
+use crate::heat::{Exchange, HeatMaterial, HeatParameters, Widths};
 use crate::piecewise::Piecewise;
 
 /// A contact as the temperatures see it.
@@ -46,12 +46,42 @@ fn copy(from: &Piecewise, to: &mut Piecewise) {
 
 /// Parameters of the heat model for a configuration; `half_width` at the nominal load, `zone` of ordinary patches and
 /// `reach` of wide ones [m].
-pub fn heat_config(config: &Config, half_width: f64, zone: f64, reach: f64) -> HeatConfig {
-    HeatConfig {
-        wheel: config.wheel.clone(),
-        rail: config.rail.clone(),
-        material: config.material.clone(),
-        thermal: config.thermal.clone(),
+pub fn heat_parameters(config: &Config, half_width: f64, zone: f64, reach: f64) -> HeatParameters {
+    let Config { wheel, rail, material, thermal, .. } = config;
+    let widths = match thermal.cross_section {
+        CrossSection::Bodies => Some(Widths {
+            rim: thermal.rim_width,
+            rim_depth: thermal.rim_depth,
+            web: thermal.web_width,
+            boss_radius: thermal.boss_radius,
+            boss: thermal.rim_width * thermal.boss,
+            head: thermal.head_width,
+            block: thermal.block_width,
+        }),
+        CrossSection::Contact => None,
+    };
+    HeatParameters {
+        radius: wheel.radius,
+        hub_radius: wheel.hub_radius,
+        rail_length: rail.length,
+        rail_height: rail.height,
+        material: HeatMaterial {
+            density: material.density,
+            specific_heat: material.specific_heat,
+            conductivity: material.conductivity,
+            latent_heat: material.latent_heat,
+            solidus: material.solidus,
+            liquidus: material.liquidus,
+        },
+        widths,
+        reference: thermal.reference,
+        hub_held: thermal.hub == Hub::Fixed,
+        convection: thermal.convection,
+        conductance: thermal.conductance,
+        heat_ratio: thermal.heat_ratio,
+        wheel_share: thermal.wheel_share,
+        max_speed: thermal.max_speed,
+        smallest_load_ratio: thermal.smallest_load_ratio,
         contact_width: config.nominal_patch().width,
         elements_per_half_width: config.mesh.elements_per_half_width,
         half_width,

@@ -140,13 +140,13 @@ pub fn criteria(tuning: &Tuning) -> Criteria {
 mod tests {
     use super::*;
     use crate::heat::Heat;
-    use crate::rolling::thermal::exchange::heat_config;
+    use crate::rolling::thermal::exchange::heat_parameters;
 
     #[test]
     fn hot_places_conduct_as_the_material_does() {
         let (config, half_width) = (Config::default(), 6e-3);
         let zone = 1.5 * half_width;
-        let heat = Heat::new(&heat_config(&config, half_width, zone, zone)).unwrap();
+        let heat = Heat::new(&heat_parameters(&config, half_width, zone, zone)).unwrap();
         let history = MaterialHistory::new(&config, &heat, half_width, zone);
         let (conductivity, capacity) = (50.0, 7850.0 * 470.0_f64);
         let mesh = history.spots.mesh();

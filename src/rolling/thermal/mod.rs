@@ -23,13 +23,13 @@ use crate::config::Config;
 use crate::contact::{ContactState, Heating, Traction};
 use crate::damage::ConductionScratch;
 use crate::heat::{
-    Exchange, Heat, HeatConfig, HeatError, HeatLine, HeatModel, HeatScratch, Observation, TemperatureField,
+    Exchange, Heat, HeatError, HeatLine, HeatModel, HeatParameters, HeatScratch, Observation, TemperatureField,
 };
 use crate::material::{FILM_GROWS, SOFTENS};
 use crate::mechanics;
 use crate::piecewise;
 use deformation::Expansion;
-pub use exchange::ThermalContact;
+pub use exchange::{ThermalContact, heat_parameters};
 pub use history::criteria;
 use history::{MaterialHistory, ObservedStep};
 use smoothing::Smoothing;
@@ -104,7 +104,7 @@ pub struct ThermalLine<'a> {
 pub fn check_size(config: &Config) -> Result<(), HeatError> {
     let zone = mechanics::contact_zone(config);
     let reach = (zone.candidates() / 2 + 1) as f64 * zone.spacing();
-    Ok(exchange::heat_config(config, zone.half_width, reach, reach.max(zone.reach)).validate()?)
+    heat_parameters(config, zone.half_width, reach, reach.max(zone.reach)).validate()
 }
 
 impl ThermalModel {
@@ -120,10 +120,10 @@ impl ThermalModel {
         zone: f64,
         margin: f64,
         reach: f64,
-        heat: impl FnOnce(&HeatConfig) -> Result<Box<dyn HeatModel>, HeatError>,
+        heat: impl FnOnce(&HeatParameters) -> Result<Box<dyn HeatModel>, HeatError>,
     ) -> Result<Self, HeatError> {
         let half_width = mechanics::nominal_half_width(config);
-        let heat = heat(&exchange::heat_config(config, half_width, zone + margin, reach.max(zone + margin)))?;
+        let heat = heat(&heat_parameters(config, half_width, zone + margin, reach.max(zone + margin)))?;
         Ok(Self {
             history: MaterialHistory::new(config, &*heat, half_width, zone),
             heat,

@@ -1,7 +1,7 @@
 //! Profiles against the way of a run: samples that it does not meet, and gaps between them.
 
 use super::Simulation;
-use crate::config::display_number;
+use crate::display::display_number;
 
 /// Distance \[m] of samples ahead of the start from which a word is due at once; nearer ones may be meant.
 const FAR: f64 = 1000.0;

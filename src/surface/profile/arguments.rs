@@ -2,7 +2,8 @@
 
 use super::error::ProfileError;
 use super::text::{ArgumentValue, FeatureCall};
-use crate::config::{display_number, display_outside, display_range, nearest};
+use crate::config::nearest;
+use crate::display::{display_number, display_outside, display_range};
 use std::fmt::Display;
 
 /// Arguments between the brackets of a feature. Every parameter is taken once; an argument that is left at the end is

@@ -11,7 +11,8 @@ use super::samples::{HeightSamples, ROUNDED_PERIOD, ROUNDED_SUM};
 use super::text::FeatureCall;
 use super::undulation::{Sinusoid, Texture, Undulation, Window};
 
-use crate::config::{display_number, nearest};
+use crate::config::nearest;
+use crate::display::display_number;
 use std::cell::Cell;
 use std::path::Path;
 

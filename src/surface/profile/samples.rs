@@ -1,7 +1,7 @@
 //! Sampled profiles: a CSV file with the columns `position,height` in metres.
 
 use super::error::ProfileError;
-use crate::config::display_number;
+use crate::display::display_number;
 use crate::files;
 use crate::files::table::{Table, TableError};
 use crate::piecewise::Piecewise;

@@ -43,7 +43,7 @@ pub fn data(layout: &HeatLayout, state: &HeatState, exchange: &Exchange) -> [f64
 /// much.
 pub fn set_range(layout: &HeatLayout, state: &HeatState, moved: &[f64], next: &mut HeatState, melts: f64) {
     let [coldest, hottest] = next.data;
-    let low = (coldest - MARGIN).max(-NEAR_ZERO * layout.config.thermal.reference);
+    let low = (coldest - MARGIN).max(-NEAR_ZERO * layout.config.reference);
     next.rows.clear();
     let moved = state.rows.iter().zip(moved);
     next.rows.extend(moved.map(|(row, change)| RowBounds { moved: row.moved + change, ..*row }));

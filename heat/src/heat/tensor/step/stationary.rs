@@ -60,7 +60,7 @@ pub fn after_long_rolling(
 ) -> Result<(HeatState, HeatFlows), HeatError> {
     let (rail, layout) = (exchange.arriving, &heat.layout);
     let mut parts = vec![heat.uniform(wheel, rail)];
-    let moving = [speeds[0], speeds[1] * layout.config.wheel.radius].map(|speed| speed.abs() > AT_REST);
+    let moving = [speeds[0], speeds[1] * layout.config.radius].map(|speed| speed.abs() > AT_REST);
     if moving == [false; 2] {
         return Ok((superposed(layout, &parts)?, HeatFlows::default()));
     }
@@ -120,7 +120,7 @@ fn prepared(
     check_speeds(speeds)?;
     let (layout, mut stage, mut line) = (&heat.layout, Stage::default(), LineConduction::default());
     loads.set(layout, exchange, heat.content(exchange.arriving))?;
-    let storage = REGULARISATION * layout.config.diffusivity() / layout.config.wheel.radius.powi(2);
+    let storage = REGULARISATION * layout.config.diffusivity() / layout.config.radius.powi(2);
     let coefficients = StageCoefficients { storage, flow: 1.0 };
     let contact = contact_nodes(&loads.conductance);
     let key = StageKey { speeds, inverted: speeds, coefficients, rate: 0.0, curved, contact };

@@ -2,7 +2,7 @@
 
 use super::loads::SurfaceLoads;
 use super::plan::StepPlan;
-use crate::heat::parameters::HeatConfig;
+use crate::heat::parameters::HeatParameters;
 use crate::heat::state::HeatState;
 use crate::heat::tensor::melt::iteration::MeltingIteration;
 use crate::heat::tensor::solve::line_conduction::LineConduction;
@@ -12,7 +12,7 @@ use crate::heat::tensor::solve::stage::Stage;
 #[derive(Default)]
 pub struct HeatScratch {
     /// Parameters of the model whose operators `work` holds.
-    pub(super) owner: Option<HeatConfig>,
+    pub(super) owner: Option<HeatParameters>,
     /// States in which the step of each line begins if another rail arrives.
     pub(super) begin: Vec<HeatState>,
     /// Memory of each line.

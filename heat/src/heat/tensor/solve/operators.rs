@@ -48,7 +48,7 @@ impl StageKey {
 
 /// Velocities of the streams of wheel and rail at the speeds V and Ω [m/s].
 pub fn streams(layout: &HeatLayout, [velocity, omega]: [f64; 2]) -> [f64; 2] {
-    [-omega * layout.config.wheel.radius, -velocity]
+    [-omega * layout.config.radius, -velocity]
 }
 
 /// Matrices and inverses of both bodies in a stage.

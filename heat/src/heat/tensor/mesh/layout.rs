@@ -4,10 +4,9 @@ use super::body::HeatBody;
 use super::depth_modes::DepthModes;
 use super::section::{LayerGrading, Section};
 use super::streamline::Streamline;
-use crate::config::Hub;
 use crate::fem::grading::graded;
 use crate::heat::error::HeatError;
-use crate::heat::parameters::HeatConfig;
+use crate::heat::parameters::HeatParameters;
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -30,7 +29,7 @@ const LARGEST_ALONG_RAIL: f64 = 0.05;
 #[derive(Clone, Debug)]
 pub struct HeatLayout {
     /// Parameters that the meshes follow from.
-    pub config: HeatConfig,
+    pub config: HeatParameters,
     /// Mesh of the wheel.
     pub wheel: HeatBody,
     /// Mesh of the rail.
@@ -43,14 +42,14 @@ impl HeatLayout {
     /// Meshes with layers that grow by `growth` from one to the next.
     ///
     /// Fails for parameters on which no mesh can be laid, and if the modes over the depth are not found.
-    pub fn new(config: &HeatConfig, growth: f64) -> Result<Self, HeatError> {
+    pub fn new(config: &HeatParameters, growth: f64) -> Result<Self, HeatError> {
         config.validate()?;
         let c = config.clone();
-        let (radius, smallest) = (c.wheel.radius, c.smallest_half_width());
-        let boundary_layer = (2.0 * c.diffusivity() * smallest / c.thermal.max_speed).sqrt();
+        let (radius, smallest) = (c.radius, c.smallest_half_width());
+        let boundary_layer = (2.0 * c.diffusivity() * smallest / c.max_speed).sqrt();
         let first = (FIRST_LAYER * boundary_layer).min(FIRST_LAYER_HALF_WIDTHS * smallest);
         let grading = LayerGrading { first, growth };
-        let (conductivity, convection) = (c.material.conductivity, c.thermal.convection);
+        let (conductivity, convection) = (c.material.conductivity, c.convection);
         let biot = convection / conductivity;
         let zone = zone_nodes(&c);
         let streamline =
@@ -58,16 +57,12 @@ impl HeatLayout {
         let body = |streamline: Streamline, modes: DepthModes| {
             HeatBody::new(streamline, modes, c.heat_capacity(), conductivity, convection)
         };
-        let held = match c.thermal.hub {
-            Hub::Fixed => true,
-            Hub::Insulated => false,
-        };
         let wheel = body(
             streamline(PI * radius, LARGEST_ALONG * radius, true),
-            DepthModes::new(&Section::wheel(&c, grading), 1.0 / radius, held, biot)?,
+            DepthModes::new(&Section::wheel(&c, grading), 1.0 / radius, c.hub_held, biot)?,
         )?;
         let rail = body(
-            streamline(0.5 * c.rail.length, LARGEST_ALONG_RAIL * c.rail.length, false),
+            streamline(0.5 * c.rail_length, LARGEST_ALONG_RAIL * c.rail_length, false),
             DepthModes::new(&Section::rail(&c, grading), 0.0, false, biot)?,
         )?;
         Ok(Self { wheel, rail, zone_cells: zone.len() - 1, config: c })
@@ -127,7 +122,7 @@ impl HeatLayout {
 
     /// Heat capacity of a whole body [J/(m K)], over the width of the contact.
     pub fn heat_capacity(&self, body: &HeatBody) -> f64 {
-        let length = if body.streamline.closed > 0.0 { body.streamline.closed } else { self.config.rail.length };
+        let length = if body.streamline.closed > 0.0 { body.streamline.closed } else { self.config.rail_length };
         body.heat_capacity * length * body.modes.section
     }
 
@@ -139,12 +134,12 @@ impl HeatLayout {
     }
 }
 
-fn element(c: &HeatConfig) -> f64 {
+fn element(c: &HeatParameters) -> f64 {
     c.smallest_half_width() / c.elements_per_half_width as f64
 }
 
 /// Nodes of the contact zone from the contact point outwards: finest at the edge of the nominal contact.
-fn zone_nodes(c: &HeatConfig) -> Vec<f64> {
+fn zone_nodes(c: &HeatParameters) -> Vec<f64> {
     let spacing = element(c);
     let inside = graded(EDGE * spacing, EDGE_GROWTH, spacing, c.half_width);
     let mut nodes: Vec<f64> = inside.iter().rev().map(|s| c.half_width - s).collect();

@@ -1,13 +1,20 @@
 //! Errors of heat computations.
 
-use crate::config::ConfigError;
+use crate::display::{display_number, display_range};
 
 /// Reason why a heat computation has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HeatError {
     /// A parameter out of its range.
-    #[error(transparent)]
-    Config(#[from] ConfigError),
+    #[error("{name} = {} is outside its range: {}", display_number(*value), display_range(*range, "1"))]
+    Range {
+        /// Name of the parameter, or what follows from parameters.
+        name: &'static str,
+        /// Its value, in SI units.
+        value: f64,
+        /// Smallest and largest value.
+        range: [f64; 2],
+    },
     /// An infinite or undefined input.
     #[error("{name} is {value}: not a usable number")]
     Input {

@@ -77,7 +77,7 @@ impl LineConduction {
                 side.present.set(moments, &operator.transport.upwind[body.streamline.zone + self.nodes.start..]);
                 side.inverted.set(moments, &operator.inverses.present().upwind[first..]);
             }
-            self.set_coupling(stage, layout, key, layout.config.thermal.conductance)?;
+            self.set_coupling(stage, layout, key, layout.config.conductance)?;
         }
         self.key = Some(key);
         Ok(())

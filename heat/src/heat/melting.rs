@@ -4,7 +4,7 @@
 //! from the solidus to the liquidus. Where nothing melts, `h` is the temperature itself. All temperatures here are
 //! excess temperatures over the reference \[K].
 
-use super::parameters::HeatConfig;
+use super::parameters::HeatParameters;
 
 /// Relation of heat content and temperature.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,8 +20,8 @@ pub struct Melting {
 impl Melting {
     /// Relation for the material and the reference temperature; `None` without latent heat, and if everything is molten
     /// anyway.
-    pub fn new(config: &HeatConfig) -> Option<Self> {
-        let (material, reference) = (&config.material, config.thermal.reference);
+    pub fn new(config: &HeatParameters) -> Option<Self> {
+        let (material, reference) = (&config.material, config.reference);
         let solidus = material.solidus - reference;
         (material.latent_heat > 0.0 && solidus > 0.0).then(|| Self {
             solidus,

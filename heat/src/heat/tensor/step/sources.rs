@@ -24,13 +24,9 @@ impl SourceLoads {
         for &HeatSource { place, heat } in sources {
             finite("heat of a source", heat)?;
             match place {
-                HeatPlace::Tread { angle, width } => add_arc(
-                    &layout.wheel.streamline,
-                    layout.config.wheel.radius,
-                    [angle, width],
-                    heat,
-                    &mut self.tread,
-                )?,
+                HeatPlace::Tread { angle, width } => {
+                    add_arc(&layout.wheel.streamline, layout.config.radius, [angle, width], heat, &mut self.tread)?
+                }
             }
         }
         Ok(())

@@ -37,7 +37,7 @@ impl ObservationWeights {
         let mut layer = layout.bodies().map(|body| body.modes.integrals(flash));
         let mut moments = layout.bodies().map(|body| body.modes.moments(flash));
         // Rail that is as warm in the depth grows as a whole and not at the contact.
-        let below = layout.rail.modes.at(c.half_width.min(c.rail.height));
+        let below = layout.rail.modes.at(c.half_width.min(c.rail_height));
         for (weights, of_one) in [(&mut layer[1], flash), (&mut moments[1], 0.5 * flash * flash)] {
             weights.iter_mut().zip(&below).for_each(|(weight, value)| *weight -= of_one * value);
         }

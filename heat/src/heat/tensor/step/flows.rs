@@ -63,7 +63,7 @@ impl LineConduction {
             let reversible = loads.reversible.iter().map(|q| q[0]);
             flows.conduction += weight * (through.sum::<f64>() + reversible.sum::<f64>());
         }
-        let share = layout.config.thermal.wheel_share;
+        let share = layout.config.wheel_share;
         flows.to_wheel = share * flows.friction - flows.conduction;
         flows.to_rail = (1.0 - share) * flows.friction + flows.conduction;
         let (held, change) = (layout.split(content), rate.map(|rate| layout.split(rate)));

@@ -13,9 +13,10 @@ use super::solve::response::SurfaceInfluence;
 use super::solve::transport::Transport;
 use super::solve::tridiagonal::TridiagonalFactor;
 use super::step::loads::SurfaceLoads;
-use crate::config::{Config, Hub};
 use crate::fem::grading::graded;
-use crate::heat::{Exchange, HeatConfig, HeatLine, HeatModel, HeatScratch, HeatState, Interval, Observation};
+use crate::heat::{
+    Exchange, HeatLine, HeatMaterial, HeatModel, HeatParameters, HeatScratch, HeatState, Interval, Observation,
+};
 use crate::linalg::Update;
 use crate::linalg::gmres::{Gmres, LinearSystem};
 use crate::piecewise::Piecewise;
@@ -139,27 +140,38 @@ fn erfcx(z: f64) -> f64 {
 
 /// Both bodies for a contact of the half-width `a` \[m] at the speed `v` [m/s] with the conductance `k_c` [W/(m² K)].
 fn both(a: f64, v: f64, k_c: f64) -> Heat {
-    let mut config: Config = crate::config::presets::parse(include_str!("../../../resources/paper_b.json")).unwrap();
-    (config.wheel.radius, config.wheel.hub_radius, config.rail.length, config.rail.height) = (R, HUB, 1.0, 0.1);
-    (config.material.conductivity, config.material.density, config.material.specific_heat) =
-        (CONDUCTIVITY, 8000.0, HEAT_CAPACITY / 8000.0);
-    let thermal = &mut config.thermal;
-    (thermal.max_speed, thermal.smallest_load_ratio, thermal.convection) = (v, 1.0, 0.0);
-    (thermal.hub, thermal.conductance) = (Hub::Fixed, k_c);
-    let Config { wheel, rail, material, thermal, .. } = config;
-    let (half_width, zone) = (a, 1.5 * a);
-    let contact = HeatConfig {
-        wheel,
-        rail,
+    let zone = 1.5 * a;
+    let density = 8000.0;
+    let material = HeatMaterial {
+        density,
+        specific_heat: HEAT_CAPACITY / density,
+        conductivity: CONDUCTIVITY,
+        latent_heat: 270e3,
+        solidus: 1723.0,
+        liquidus: 1803.0,
+    };
+    Heat::new(&HeatParameters {
+        radius: R,
+        hub_radius: HUB,
+        rail_length: 1.0,
+        rail_height: 0.1,
         material,
-        thermal,
+        widths: None,
+        reference: 293.0,
+        hub_held: true,
+        convection: 0.0,
+        conductance: k_c,
+        heat_ratio: 0.1,
+        wheel_share: 0.5,
+        max_speed: v,
+        smallest_load_ratio: 1.0,
         contact_width: 1.0,
         elements_per_half_width: 20,
-        half_width,
+        half_width: a,
         zone,
         reach: zone,
-    };
-    Heat::new(&contact).unwrap()
+    })
+    .unwrap()
 }
 
 /// A wheel slows down from 50 km/h at 2 m/s² while its friction heat swings by a fifth.

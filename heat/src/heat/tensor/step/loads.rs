@@ -41,16 +41,15 @@ impl SurfaceLoads {
         self.friction_share = 1.0;
         self.arriving = arriving;
         let zone = Zone { x: layout.zone_positions(), half_length: layout.config.reach };
-        let thermal = &layout.config.thermal;
         self.friction.clear();
         self.friction.resize(layout.zone_elements(), [0.0; 2]);
-        zone.add_friction(thermal.heat_ratio, &exchange.friction_power, &mut self.friction)?;
+        zone.add_friction(layout.config.heat_ratio, &exchange.friction_power, &mut self.friction)?;
         if !exchange.film.is_empty() {
             zone.leave(&exchange.film, &mut self.friction);
         }
         self.conductance.clear();
         self.conductance.resize(layout.zone_elements(), [0.0; 3]);
-        zone.add_conductance(thermal.conductance, &exchange.patches, &mut self.conductance)?;
+        zone.add_conductance(layout.config.conductance, &exchange.patches, &mut self.conductance)?;
         self.reversible.clear();
         if !exchange.reversible.is_empty() {
             zone.add_reversible(&exchange.reversible, &self.conductance, &mut self.reversible)?;

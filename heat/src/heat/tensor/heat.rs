@@ -6,7 +6,7 @@ use super::mesh::kernels::dot;
 use super::mesh::layout::{HeatLayout, LAYER_GROWTH};
 use super::weights::ObservationWeights;
 use crate::heat::error::HeatError;
-use crate::heat::parameters::HeatConfig;
+use crate::heat::parameters::HeatParameters;
 use crate::heat::state::HeatState;
 
 /// Temperatures of wheel and rail on tensor meshes (streamlines × depth); immutable.
@@ -24,18 +24,18 @@ impl Heat {
     /// Meshes and modes for the given parameters.
     ///
     /// Fails for parameters on which no mesh can be laid, and if the modes over the depth are not found.
-    pub fn new(config: &HeatConfig) -> Result<Self, HeatError> {
+    pub fn new(config: &HeatParameters) -> Result<Self, HeatError> {
         Self::with_layers(config, LAYER_GROWTH)
     }
 
     /// Meshes with layers that grow by `growth` from one to the next, for studies of the mesh.
-    pub fn with_layers(config: &HeatConfig, growth: f64) -> Result<Self, HeatError> {
+    pub fn with_layers(config: &HeatParameters, growth: f64) -> Result<Self, HeatError> {
         let layout = HeatLayout::new(config, growth)?;
         Ok(Self { latent: LatentHeat::new(&layout), weights: ObservationWeights::new(&layout), layout })
     }
 
     /// Parameters that this model was made from.
-    pub fn config(&self) -> &HeatConfig {
+    pub fn config(&self) -> &HeatParameters {
         &self.layout.config
     }
 

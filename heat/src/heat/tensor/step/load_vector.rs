@@ -9,7 +9,7 @@ use crate::heat::tensor::solve::transport::bearing;
 
 /// Replaces the surface loads of a line by those of friction and of reversible temperatures.
 pub fn set_surface_loads(stage: &StageOperators, layout: &HeatLayout, loads: &SurfaceLoads, line: &mut LineConduction) {
-    let share = layout.config.thermal.wheel_share;
+    let share = layout.config.wheel_share;
     let bodies = layout.bodies().into_iter().zip(stage.bodies()).zip(&mut line.sides);
     for (((body, operator), side), (share, sign)) in bodies.zip([(share, -1.0), (1.0 - share, 1.0)]) {
         let (transport, first, share) = (&operator.transport, body.streamline.zone, share * loads.friction_share);

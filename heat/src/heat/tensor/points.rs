@@ -56,7 +56,7 @@ impl Heat {
 
     /// Temperature fields of wheel and rail.
     pub(super) fn temperature_fields(&self, state: &HeatState) -> [TemperatureField; 2] {
-        let radius = self.layout.config.wheel.radius;
+        let radius = self.layout.config.radius;
         let polar = |s: f64, z: f64| [(radius - z) * libm::sin(s / radius), -(radius - z) * libm::cos(s / radius)];
         let [mut wheel, mut rail] = self.layout.split(&state.values).map(|field| field.to_vec());
         if let Some(latent) = self.melting_within(state.range) {

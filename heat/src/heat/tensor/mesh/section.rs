@@ -4,9 +4,8 @@
 //! distance `z` from the contact conducts over the width `w(z)` of [`spread`]; the rim ends where it holds the volume
 //! of the real one. Below it are web and boss. Derivation and measured errors: `docs/theory/width-of-conduction.md`.
 
-use crate::config::CrossSection;
 use crate::fem::grading::graded;
-use crate::heat::parameters::HeatConfig;
+use crate::heat::parameters::{HeatParameters, Widths};
 use std::f64::consts::PI;
 
 /// The largest layer in thicknesses of the body.
@@ -59,50 +58,50 @@ impl Section {
     }
 
     /// Section of the wheel.
-    pub fn wheel(c: &HeatConfig, grading: LayerGrading) -> Self {
-        match c.thermal.cross_section {
-            CrossSection::Bodies => Self::rim_and_web(c, grading),
-            CrossSection::Contact => Self::even(layers(grading, c.wheel.radius - c.wheel.hub_radius)),
+    pub fn wheel(c: &HeatParameters, grading: LayerGrading) -> Self {
+        match &c.widths {
+            Some(widths) => Self::rim_and_web(c, widths, grading),
+            None => Self::even(layers(grading, c.radius - c.hub_radius)),
         }
     }
 
     /// Section of rim, web and boss, into which heat spreads.
-    fn rim_and_web(c: &HeatConfig, grading: LayerGrading) -> Self {
-        let (radius, thickness) = (c.wheel.radius, c.wheel.radius - c.wheel.hub_radius);
-        let (strip, t) = (c.contact_width, &c.thermal);
-        let rim = (t.rim_width / strip).max(1.0);
-        let depth = t.rim_depth.min(thickness);
+    fn rim_and_web(c: &HeatParameters, widths: &Widths, grading: LayerGrading) -> Self {
+        let (radius, thickness) = (c.radius, c.radius - c.hub_radius);
+        let strip = c.contact_width;
+        let rim = (widths.rim / strip).max(1.0);
+        let depth = widths.rim_depth.min(thickness);
         let area = |z: f64| z - 0.5 * z * z / radius;
         let width = |z: f64| spread(z / strip).min(rim);
         let bottom = depth_of(rim * area(depth), thickness, |z| width(z) * (1.0 - z / radius));
         let cone = (strip * spread_depth(rim)).min(bottom);
-        let boss = (radius - t.boss_radius).clamp(bottom, thickness);
+        let boss = (radius - widths.boss_radius).clamp(bottom, thickness);
         // Bare sides of rim and web as large as the real ones, beside layers that are not quite where those are.
         let sides = |real: f64, layers: f64| if layers > 0.0 { 2.0 / strip * real / layers } else { 0.0 };
         let rim_sides = sides(area(depth), area(bottom));
-        let foot = (radius - t.boss_radius).clamp(depth, thickness);
+        let foot = (radius - widths.boss_radius).clamp(depth, thickness);
         let web_sides = sides(area(foot) - area(depth), area(boss) - area(bottom));
         let parts = [
             SectionPart { end: cone, width: None, bare: rim_sides, top: rim - 1.0 },
             SectionPart { end: bottom, width: Some(rim), bare: rim_sides, top: 0.0 },
-            SectionPart { end: boss, width: Some(t.web_width / strip), bare: web_sides, top: 0.0 },
-            SectionPart { end: thickness, width: Some(t.rim_width * t.boss / strip), bare: 0.0, top: 0.0 },
+            SectionPart { end: boss, width: Some(widths.web / strip), bare: web_sides, top: 0.0 },
+            SectionPart { end: thickness, width: Some(widths.boss / strip), bare: 0.0, top: 0.0 },
         ];
-        Self { block: (t.block_width / strip).clamp(1.0, rim), ..Self::of_parts(&parts, strip, grading, 1.0 / radius) }
+        Self { block: (widths.block / strip).clamp(1.0, rim), ..Self::of_parts(&parts, strip, grading, 1.0 / radius) }
     }
 
     /// Section of the rail, from the top of its head down to the base.
-    pub fn rail(c: &HeatConfig, grading: LayerGrading) -> Self {
-        match c.thermal.cross_section {
-            CrossSection::Bodies => Self::head(c, grading),
-            CrossSection::Contact => Self::even(layers(grading, c.rail.height)),
+    pub fn rail(c: &HeatParameters, grading: LayerGrading) -> Self {
+        match &c.widths {
+            Some(widths) => Self::head(c, widths, grading),
+            None => Self::even(layers(grading, c.rail_height)),
         }
     }
 
     /// Section of the rail's head, into which heat spreads.
-    fn head(c: &HeatConfig, grading: LayerGrading) -> Self {
-        let (height, strip) = (c.rail.height, c.contact_width);
-        let head = (c.thermal.head_width / strip).max(1.0);
+    fn head(c: &HeatParameters, widths: &Widths, grading: LayerGrading) -> Self {
+        let (height, strip) = (c.rail_height, c.contact_width);
+        let head = (widths.head / strip).max(1.0);
         let cone = (strip * spread_depth(head)).min(height);
         let sides = 2.0 / strip;
         let parts = [

@@ -42,6 +42,6 @@ pub use limits::{LARGEST_STEP, SMALLEST_STEP};
 pub use melting::Melting;
 pub use model::{HeatLine, HeatModel};
 pub use observation::{Observation, TemperatureField, Temperatures};
-pub use parameters::HeatConfig;
+pub use parameters::{HeatMaterial, HeatParameters, Widths};
 pub use state::HeatState;
 pub use tensor::{Heat, HeatScratch, WheelStage};
