@@ -45,7 +45,7 @@
 //! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time | |
 //! | [`lru`] | what is expensive to compute, kept for the steps that share it | |
 //! | [`files`] | reading of regular files of bounded size | |
-//! | [`display`] | numbers and their ranges in messages | |
+//! | [`display`] | numbers, their ranges and names like a misspelt one in messages | |
 //! | [`linalg`] | sparse factorisation, vibration modes, GMRES | |
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly | |
 //! | [`mechanics`] | bodies: [`mechanics::BodyResponse`] | [ale-balance], [condensation], [damping], [rail-ends] |
@@ -76,16 +76,14 @@
 #![warn(missing_docs)]
 
 pub mod config;
-pub mod damage;
-pub mod files;
 pub mod fmi;
 pub mod material;
 pub mod mechanics;
 pub mod rolling;
 pub mod simulation;
-pub mod surface;
 pub mod wheels;
 
 pub use wheelrail_contact::{axes, contact, patch};
-pub use wheelrail_heat::heat;
+pub use wheelrail_heat::{damage, heat};
 pub use wheelrail_numerics::{analytic, display, fem, linalg, lru, multistep, piecewise};
+pub use wheelrail_surface::{files, surface};

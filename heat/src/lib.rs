@@ -1,10 +1,16 @@
-//! Temperature of a wheel and a rail that roll and slide on each other: boundary layers, conductance, brakes, air, melting.
+//! Temperature of a wheel and a rail that roll and slide on each other, and what it does to the steel.
 //!
-//! Its only room is [`heat`], which `wheelrail` has under the same name; it begins with [`heat::HeatModel`] and
-//! [`heat::HeatParameters`]. SI units everywhere. Theory: `docs/theory/heat.md`.
+//! | room | content |
+//! |---|---|
+//! | [`heat`] | temperature of both bodies behind [`heat::HeatModel`]: boundary layers, conductance, brakes, air, melting |
+//! | [`damage`] | history of hot places of the tread, structure of the steel |
+//!
+//! `wheelrail` has these rooms under the same names. SI units everywhere. Theory: `docs/theory/heat.md` and
+//! `docs/theory/material-history.md`.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod damage;
 pub mod heat;
 
 use wheelrail_numerics::{display, fem, linalg, lru, piecewise};

@@ -1,4 +1,4 @@
-//! Numbers and their ranges in messages.
+//! Numbers, their ranges and names like a misspelt one in messages.
 
 /// A number with at most six significant digits, for messages.
 pub fn display_number(value: f64) -> String {
@@ -28,6 +28,24 @@ pub fn display_outside(value: f64, bounds: [f64; 2]) -> String {
 fn plain(value: f64) -> String {
     let ordinary = value == 0.0 || !value.is_finite() || (1e-4..1e6).contains(&value.abs());
     if ordinary { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// How many names an error message suggests.
+const SUGGESTIONS: usize = 3;
+
+/// The names most like `name`, for messages.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
+    let similarity = |candidate: &str| strsim::jaro_winkler(candidate, name).max(tail_similarity(candidate, name));
+    let mut near: Vec<_> = candidates.into_iter().map(|candidate| (similarity(candidate), candidate)).collect();
+    near.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let names: Vec<_> = near.iter().take(SUGGESTIONS).map(|(_, name)| *name).collect();
+    names.join(", ")
+}
+
+/// Similarity of the last parts of two structured names: who forgets the group still finds the variable.
+fn tail_similarity(a: &str, b: &str) -> f64 {
+    let tail = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
+    0.95 * strsim::normalized_damerau_levenshtein(&tail(a), &tail(b))
 }
 
 #[cfg(test)]

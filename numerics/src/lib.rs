@@ -6,7 +6,7 @@
 //! | [`multistep`] | the time formula: derivative, history, impulse |
 //! | [`piecewise`] | piecewise linear functions: profiles, nodal values, inputs over time |
 //! | [`lru`] | what is expensive to compute, kept for the steps that share it |
-//! | [`display`] | numbers and their ranges in messages |
+//! | [`display`] | numbers, their ranges and names like a misspelt one in messages |
 //! | [`linalg`] | sparse factorisation, vibration modes, GMRES, loops for vector registers |
 //! | [`fem`] | streamline-aligned graded meshes, elements, assembly |
 //!

@@ -50,24 +50,6 @@ impl Damping {
     }
 }
 
-/// How many names an error message suggests.
-const SUGGESTIONS: usize = 3;
-
-/// The names most like `name`, for messages.
-pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
-    let similarity = |candidate: &str| strsim::jaro_winkler(candidate, name).max(tail_similarity(candidate, name));
-    let mut near: Vec<_> = candidates.into_iter().map(|candidate| (similarity(candidate), candidate)).collect();
-    near.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let names: Vec<_> = near.iter().take(SUGGESTIONS).map(|(_, name)| *name).collect();
-    names.join(", ")
-}
-
-/// Similarity of the last parts of two structured names: who forgets the group still finds the variable.
-fn tail_similarity(a: &str, b: &str) -> f64 {
-    let tail = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
-    0.95 * strsim::normalized_damerau_levenshtein(&tail(a), &tail(b))
-}
-
 impl Config {
     /// Width of the bodies of wheel and rail \[m]: forces of the wheel = width × forces of the plane model.
     pub fn width(&self) -> f64 {

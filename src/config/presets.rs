@@ -40,7 +40,7 @@ fn apply<T>(config: &mut T, rows: &'static [Row<T>], json: &Json) -> Result<(), 
 
 /// The refusal of a name that no parameter has: a retired one, or one with its nearest neighbours.
 fn no_such_parameter(name: &str, names: impl Iterator<Item = &'static str>) -> String {
-    let near = || format!("parameter {name} is unknown; nearest: {}", super::nearest(name, names));
+    let near = || format!("parameter {name} is unknown; nearest: {}", crate::display::nearest(name, names));
     super::retired::named(name).map_or_else(near, ToString::to_string)
 }
 

@@ -206,7 +206,7 @@ fn energy_outputs(model: &RollingModel, state: &State, pressure_max: f64, others
         energy_residual: audit.residual(model.contact.nominal_energy()),
         t_gamma,
         rail_energy: t_gamma,
-        wear_rate: WearLaw::from(&model.config).rate(t_gamma, area),
+        wear_rate: WearLaw::r8t().scaled(model.config.damage.wear_factor).rate(t_gamma, area),
         surface_fatigue: surface_fatigue(adhesion, model.contact.shear_yield, pressure_max),
         ..others
     }

@@ -54,7 +54,7 @@ struct Way {
 fn wear_line(model: &RollingModel, way: &Way, passing: &Passing, next: &mut Line) {
     let (Way { dt, velocity, rim, from, to }, traction) = (way, &next.contact.traction);
     let t_gamma = per_metre(traction.friction.work / dt, *velocity, *rim);
-    let law = WearLaw::from(&model.config);
+    let law = WearLaw::r8t().scaled(model.config.damage.wear_factor);
     let mass = law.rate(t_gamma, traction.touching()) * velocity.abs().max(STANDSTILL) * dt;
     let volume = mass / model.config.material.density;
     let load = traction.resultant.height;

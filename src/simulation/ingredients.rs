@@ -45,7 +45,8 @@ impl Ingredients {
         let (rows, config) = (config.contact.rows.clone(), patch_file::read(config, store.resources())?);
         config.validate()?;
         RollingModel::check_size(&config)?;
-        let surfaces = Surfaces::from_config(&config, store.resources()).map_err(ModelError::from)?;
+        let profiles = [&config.wheel.profile, &config.rail.profile].map(String::as_str);
+        let surfaces = Surfaces::parse(config.wheel.radius, profiles, store.resources()).map_err(ModelError::from)?;
         Ok(Self { config, rows, surfaces })
     }
 }

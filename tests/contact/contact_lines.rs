@@ -29,7 +29,9 @@ fn model(config: &Config, shares: &[f64]) -> Result<RollingModel, ModelError> {
     let found = common::store().find(config).unwrap();
     let basis = found.map_or_else(|| Basis::compute(config, &mut |_, _| {}).unwrap(), |(basis, _)| basis);
     let pair = bodies(config, Some(basis), &mut |_, _| {}).unwrap();
-    let model = RollingModel::new(config.clone(), pair, Surfaces::from_config(config, None).unwrap())?;
+    let profiles = [&config.wheel.profile, &config.rail.profile].map(String::as_str);
+    let surfaces = Surfaces::parse(config.wheel.radius, profiles, None).unwrap();
+    let model = RollingModel::new(config.clone(), pair, surfaces)?;
     if shares.len() == 1 { Ok(model) } else { model.with_lines(shares.to_vec(), REACH) }
 }
 

@@ -150,7 +150,7 @@ fn defaults_of_steel_friction_heat_damping_and_damage_are_those_of_their_sources
 /// wear has grown to it, within the digits of the source.
 #[test]
 fn wear_has_the_numbers_of_its_source_and_mild_wear_has_grown_to_severe_wear_where_that_begins() {
-    let law = WearLaw::from(&Config::default());
+    let law = WearLaw::r8t().scaled(Config::default().damage.wear_factor);
     assert_eq!([law.mild, law.severe, law.catastrophic], [5.3e-9, 55e-3, 61.9e-9]);
     assert_eq!([law.severe_from, law.catastrophic_from], [10.4e6, 77.2e6]);
     let grown = law.mild * law.severe_from / law.severe;

@@ -41,8 +41,12 @@ enum Place {
 }
 
 /// Crates of the workspace that hold rooms of the product, from the ground up, and where their source lies.
-pub const MEMBERS: [(&str, &str); 3] =
-    [("wheelrail_numerics", "numerics/src/"), ("wheelrail_contact", "contact/src/"), ("wheelrail_heat", "heat/src/")];
+pub const MEMBERS: [(&str, &str); 4] = [
+    ("wheelrail_numerics", "numerics/src/"),
+    ("wheelrail_heat", "heat/src/"),
+    ("wheelrail_contact", "contact/src/"),
+    ("wheelrail_surface", "surface/src/"),
+];
 
 /// The member of this name.
 fn member(name: &str) -> Option<&'static str> {

@@ -398,7 +398,7 @@ fn circles_between_rooms_are_seen_though_no_file_is_in_one() {
 
 #[test]
 fn unsafe_is_only_in_the_c_interface() {
-    for crate_of in ["", "coach", "contact", "heat", "numerics", "slave"] {
+    for crate_of in ["", "coach", "contact", "heat", "numerics", "slave", "surface"] {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(crate_of).join("src");
         let is_interface = |file: &str| crate_of == "slave" && file.starts_with("c_abi/");
         for (file, text) in files_below(&folder) {
@@ -418,7 +418,7 @@ fn unsafe_is_only_in_the_c_interface() {
 #[test]
 fn functions_come_from_the_portable_library() {
     let product = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for folder in ["src", "contact/src", "heat/src", "numerics/src", "slave/src"] {
+    for folder in ["src", "contact/src", "heat/src", "numerics/src", "slave/src", "surface/src"] {
         let sources = files_below(&product.join(folder));
         let tests = test_files(&sources);
         assert!(sources.len() > tests.len() + 5, "{folder}: {} files", sources.len());

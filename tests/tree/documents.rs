@@ -36,7 +36,7 @@ fn paths(text: &str) -> impl Iterator<Item = &str> {
 
 /// True for a word that is a path of this repository.
 fn is_path(word: &str) -> bool {
-    const ROOMS: [&str; 13] = [
+    const ROOMS: [&str; 14] = [
         "src/",
         "tests/",
         "docs/",
@@ -50,6 +50,7 @@ fn is_path(word: &str) -> bool {
         "contact/tests/",
         "heat/src/",
         "numerics/src/",
+        "surface/src/",
     ];
     ROOMS.iter().any(|room| word.starts_with(room))
 }

@@ -1,7 +1,5 @@
 //! Law of wear: mass that friction takes off a wheel.
 
-use crate::config::Config;
-
 /// Mass that a wheel loses per distance rolled, as a function of the energy that friction dissipates per distance and
 /// area, Tγ/A, in three regimes that need not join.
 ///
@@ -22,19 +20,16 @@ pub struct WearLaw {
     pub catastrophic_from: f64,
 }
 
-impl From<&Config> for WearLaw {
-    fn from(config: &Config) -> Self {
-        let source = Self::r8t();
-        let [mild, severe, catastrophic] =
-            [source.mild, source.severe, source.catastrophic].map(|wear| wear * config.damage.wear_factor);
-        Self { mild, severe, catastrophic, ..source }
-    }
-}
-
 impl WearLaw {
     /// That of the source.
     pub fn r8t() -> Self {
         Self { mild: 5.3e-9, severe: 55e-3, catastrophic: 61.9e-9, severe_from: 10.4e6, catastrophic_from: 77.2e6 }
+    }
+
+    /// The law of a steel that wears `factor` times as much \[1].
+    pub fn scaled(&self, factor: f64) -> Self {
+        let [mild, severe, catastrophic] = [self.mild, self.severe, self.catastrophic].map(|wear| wear * factor);
+        Self { mild, severe, catastrophic, ..*self }
     }
 
     /// Mass per distance [kg/m] where the energy `t_gamma` \[N], Tγ, is dissipated per distance over the contact area
@@ -58,7 +53,7 @@ mod tests {
     /// 5 and 40 N/mm² over 100 mm²: 26.5 and 55 µg per metre and mm²; the regimes join within 0.3 %.
     #[test]
     fn wear_has_three_regimes_that_join() {
-        let law = WearLaw::from(&Config::default());
+        let law = WearLaw::r8t().scaled(1.0);
         let wear_rate = |t_gamma: f64, area: f64| law.rate(t_gamma, area);
         let area = 1e-4;
         assert!((wear_rate(500.0, area) - 2.65e-6).abs() < 1e-15);

@@ -11,8 +11,8 @@ use super::samples::{HeightSamples, ROUNDED_PERIOD, ROUNDED_SUM};
 use super::text::FeatureCall;
 use super::undulation::{Sinusoid, Texture, Undulation, Window};
 
-use crate::config::nearest;
 use crate::display::display_number;
+use crate::display::nearest;
 use std::cell::Cell;
 use std::path::Path;
 

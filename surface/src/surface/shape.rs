@@ -2,7 +2,6 @@
 
 use super::flattening::Flattening;
 use super::profile::{Body, Profile, ProfileError};
-use crate::config::Config;
 use crate::contact::Unevenness;
 use std::path::Path;
 
@@ -90,20 +89,19 @@ impl Surfaces {
         Self { radius, ..Self::default() }
     }
 
-    /// Surfaces that the parameters describe; files of profiles are looked for in the working
-    /// directory, then in `folder`.
+    /// A wheel of the given radius \[m] and a rail with the profiles that texts describe, of `wheel.profile` and `rail.profile`;
+    /// files of profiles are looked for in the working directory, then in `folder`.
     ///
     /// # Errors
     /// A profile without meaning, with the name of its parameter.
-    pub fn from_config(config: &Config, folder: Option<&Path>) -> Result<Self, SurfaceError> {
-        let radius = config.wheel.radius;
+    pub fn parse(radius: f64, [wheel, rail]: [&str; 2], folder: Option<&Path>) -> Result<Self, SurfaceError> {
         let profile = |parameter, text: &str, body| {
             Profile::parse(text, folder, body).map_err(|source| SurfaceError { parameter, source })
         };
         Ok(Self {
             radius,
-            wheel: profile("wheel.profile", &config.wheel.profile, Body::Wheel { radius })?,
-            rail: profile("rail.profile", &config.rail.profile, Body::Rail)?,
+            wheel: profile("wheel.profile", wheel, Body::Wheel { radius })?,
+            rail: profile("rail.profile", rail, Body::Rail)?,
         })
     }
 

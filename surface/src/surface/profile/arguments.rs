@@ -2,7 +2,7 @@
 
 use super::error::ProfileError;
 use super::text::{ArgumentValue, FeatureCall};
-use crate::config::nearest;
+use crate::display::nearest;
 use crate::display::{display_number, display_outside, display_range};
 use std::fmt::Display;
 

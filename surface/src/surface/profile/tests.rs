@@ -438,7 +438,7 @@ fn cross_sections_of_rails_and_wheels_are_told_from_profiles_along_the_way() {
 
 #[test]
 fn examples_of_the_documentation_are_profiles_and_it_names_every_feature() {
-    let text = include_str!("../../../docs/profiles.md");
+    let text = include_str!("../../../../docs/profiles.md");
     let mut parsed = 0;
     for block in text.split("```profile").skip(1) {
         let (kind, rest) = block.split_once('\n').unwrap();
