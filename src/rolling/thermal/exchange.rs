@@ -45,7 +45,7 @@ fn copy(from: &Piecewise, to: &mut Piecewise) {
 }
 
 /// Parameters of the heat model for a configuration; `half_width` at the nominal load, `zone` of ordinary patches and
-/// `reach` of wide ones [m].
+/// `reach` of wide ones \[m].
 pub fn heat_parameters(config: &Config, half_width: f64, zone: f64, reach: f64) -> HeatParameters {
     let Config { wheel, rail, material, thermal, .. } = config;
     let widths = match thermal.cross_section {
