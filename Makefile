@@ -97,8 +97,8 @@ OUT ?= results
 SCENARIO ?= examples/train/low_adhesion.json
 PLATFORMS := $(VENV)/.platforms
 SITE := $(VENV)/.site
-SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml contact/Cargo.toml heat/Cargo.toml numerics/Cargo.toml pack/Cargo.toml slave/Cargo.toml surface/Cargo.toml \
-	$(shell find src contact/src heat/src numerics/src pack/src slave/src surface/src resources docs/theory -type f) \
+SOURCES := Cargo.toml Cargo.lock build.rs modelDescription.xml bodies/Cargo.toml bodies/build.rs contact/Cargo.toml heat/Cargo.toml numerics/Cargo.toml pack/Cargo.toml slave/Cargo.toml surface/Cargo.toml \
+	$(shell find src bodies/src contact/src heat/src numerics/src pack/src slave/src surface/src resources docs/theory -type f) \
 	docs/fmu.html docs/page.html docs/style.css docs/profiles.md docs/patches.md docs/coupling.md docs/your-controller-as-an-fmu.md docs/what-the-next-wheel-meets.md docs/validation.md docs/speed.md \
 	docs/flat.png docs/hunting.png docs/masters.png docs/surfaces.png docs/suspension.png docs/own_vehicle.png docs/signs.svg docs/sideways.svg docs/model.png docs/icon.png docs/terminal.png docs/terminalsAndIcons.xml docs/license.txt \
 	docs/LICENSE-THIRD-PARTY LICENSE-MIT LICENSE-APACHE $(wildcard examples/reference/wheelrail_*)
@@ -123,7 +123,7 @@ test:
 environments: $(INSTALLED) $(MASTERS) $(TRAIN) $(NOTEBOOK) $(BROWSER) $(RECORDS)
 
 # Packages that are tested together, so that all are compiled with the same features.
-UNITS := -p wheelrail -p wheelrail-contact -p wheelrail-heat -p wheelrail-surface -p wheelrail-numerics
+UNITS := -p wheelrail -p wheelrail-bodies -p wheelrail-contact -p wheelrail-heat -p wheelrail-surface -p wheelrail-numerics
 PACKAGES := $(UNITS) -p wheelrail-pack -p wheelrail-slave -p wheelrail-bench
 
 ifdef COMPILE

@@ -77,13 +77,12 @@
 
 pub mod config;
 pub mod fmi;
-pub mod material;
-pub mod mechanics;
 pub mod rolling;
 pub mod simulation;
 pub mod wheels;
 
-pub use wheelrail_contact::{axes, contact, patch};
+pub use wheelrail_bodies::{material, mechanics};
+pub use wheelrail_contact::{contact, patch};
 pub use wheelrail_heat::{damage, heat};
-pub use wheelrail_numerics::{analytic, display, fem, linalg, lru, multistep, piecewise};
+pub use wheelrail_numerics::{analytic, axes, display, fem, linalg, lru, multistep, piecewise};
 pub use wheelrail_surface::{files, surface};

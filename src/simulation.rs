@@ -111,7 +111,7 @@ impl Model {
             let (found, bytes) = match store.find(&config)? {
                 Some(stored) => stored,
                 None => {
-                    let computed = Basis::compute(&config, progress)?;
+                    let computed = Basis::compute(&(&config).into(), progress)?;
                     let bytes = computed.to_bytes()?;
                     not_kept = store.keep(&config, &bytes).err();
                     (computed, bytes)
@@ -119,7 +119,7 @@ impl Model {
             };
             (basis, file) = (Some(found), Some(Arc::new((basis_file_name(&config), bytes))));
         }
-        let bodies = mechanics::bodies(&config, basis, progress)?;
+        let bodies = mechanics::bodies(&(&config).into(), basis, progress)?;
         let rolling = rolling::RollingModel::new(config, bodies, surfaces)?;
         Ok(Arc::new(Self { rolling, rows, basis: file, not_kept, start: Mutex::default(), shelf: Shelf::default() }))
     }

@@ -2,7 +2,7 @@
 """Counts of the source that say how well the house is built.
 
     tools/house.py                  the figures, each with its worst cases
-    tools/house.py contact rolling  the figures of these folders or files below src/, contact/src/, heat/src/, surface/src/ and numerics/src/
+    tools/house.py contact rolling  the figures of these folders or files below src/, bodies/src/, contact/src/, heat/src/, surface/src/ and numerics/src/
     tools/house.py --all            every case, not only the worst
     tools/house.py --json           figures alone, for comparing two commits
 
@@ -23,7 +23,7 @@ MAX_FUNCTION = 60
 LISTED = 12
 ROOT = Path(__file__).resolve().parent.parent
 # Folders of the source; files of those beside src/ are named with theirs.
-SOURCES = ("src", "contact/src", "heat/src", "numerics/src", "surface/src")
+SOURCES = ("src", "bodies/src", "contact/src", "heat/src", "numerics/src", "surface/src")
 
 WORD = r"[A-Za-z_][A-Za-z0-9_]*"
 TOKEN = re.compile(
@@ -305,7 +305,7 @@ def within(case, rooms):
     (True, True)
     """
     names = [re.escape(room.removeprefix("src/").rstrip("/")) for room in rooms]
-    return not rooms or any(re.search(rf"(^|[ ,])((contact|heat|numerics|surface)/src/)?{name}($|[/:.,])", case) for name in names)
+    return not rooms or any(re.search(rf"(^|[ ,])((bodies|contact|heat|numerics|surface)/src/)?{name}($|[/:.,])", case) for name in names)
 
 
 def main():

@@ -31,13 +31,13 @@ ROOT = Path(__file__).resolve().parent.parent
 TABLE = Path(__file__).with_suffix(".toml")
 MARKED = re.compile(r"([^«»]*)«([^«»]+)»([^«»]*)", re.DOTALL)
 # Code on which vibration modes depend that tests keep in the folder `basis`.
-OF_BODIES = ("src/material.rs", "numerics/src/analytic.rs", "numerics/src/fem/", "numerics/src/linalg/", "src/mechanics/")
+OF_BODIES = ("bodies/src/", "numerics/src/analytic.rs", "numerics/src/axes.rs", "numerics/src/fem/", "numerics/src/linalg/")
 # Packages with unit tests, by the name that the table has for these, and their folders.
-UNITS = {"lib": ("wheelrail", ""), "contact-lib": ("wheelrail-contact", "contact/"), "heat-lib": ("wheelrail-heat", "heat/"), "surface-lib": ("wheelrail-surface", "surface/"), "numerics-lib": ("wheelrail-numerics", "numerics/")}
+UNITS = {"lib": ("wheelrail", ""), "bodies-lib": ("wheelrail-bodies", "bodies/"), "contact-lib": ("wheelrail-contact", "contact/"), "heat-lib": ("wheelrail-heat", "heat/"), "surface-lib": ("wheelrail-surface", "surface/"), "numerics-lib": ("wheelrail-numerics", "numerics/")}
 # Where and how tests are compiled: all of them, and those of the brief run. To cargo, crates of the copy are those of the checkout: in
 # the folder of the product they must differ by their profile, lest it takes the one for the other.
 WHOLE = ("target/mutations/build", ["--profile", "edit"])
-UNOPTIMISED = [f"profile.release.package.{name}.opt-level=0" for name in ("wheelrail", "wheelrail-slave", "wheelrail-contact", "wheelrail-heat", "wheelrail-surface", "wheelrail-numerics")]
+UNOPTIMISED = [f"profile.release.package.{name}.opt-level=0" for name in ("wheelrail", "wheelrail-slave", "wheelrail-bodies", "wheelrail-contact", "wheelrail-heat", "wheelrail-surface", "wheelrail-numerics")]
 BRIEF = ("target", ["--release", *(word for setting in UNOPTIMISED for word in ("--config", setting))])
 # Number of the coefficient that is wrong, and its factor.
 SWITCH = "WHEELRAIL_WRONG_COEFFICIENT"

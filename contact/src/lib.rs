@@ -13,13 +13,12 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
-pub mod axes;
 pub mod contact;
 pub mod half_spaces;
 pub mod patch;
 
 pub use contact::{ContactError, Friction, FrictionLaw, Traction};
 pub use half_spaces::{Creepages, ElasticMaterial, RollingContact, RollingStep};
-pub use wheelrail_numerics as numerics;
+pub use wheelrail_numerics::{self as numerics, axes};
 
 use wheelrail_numerics::{analytic, linalg, multistep, piecewise};

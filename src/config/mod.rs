@@ -4,6 +4,7 @@
 //! metre of width and [`Config::width`] maps one to the other. `Config::default()` is the preset
 //! `railway`; other presets say in what they differ from it, see [`presets`].
 
+mod bodies;
 pub mod choices;
 mod dependent;
 mod nominal;

@@ -17,7 +17,6 @@ use crate::contact::{
     LineLayout, LineProblem, SteelLimits, SurfaceResponse, Traction, Undeformed,
 };
 use crate::material::{INDENTATION, Isotropic, YIELD_IN_SHEAR};
-use crate::mechanics;
 use crate::piecewise::{self, smooth_step};
 use crate::surface::{Placement, Surfaces};
 
@@ -58,7 +57,7 @@ impl ContactModel {
             surfaces,
             solver,
             nominal_load: config.model.nominal_load,
-            nominal_half_width: mechanics::nominal_half_width(config),
+            nominal_half_width: config.nominal_patch().half_length,
             width: config.width(),
             layer: config.contact.layer_flexibility,
             yield_pressure: match config.physics.yielding {
@@ -66,7 +65,7 @@ impl ContactModel {
                 false => f64::INFINITY,
             },
             shear_yield: YIELD_IN_SHEAR * config.material.yield_strength,
-            flows: mechanics::nominal_half_width(config) / Isotropic::from(&config.material).shear_modulus(),
+            flows: config.nominal_patch().half_length / Isotropic::from(&config.material).shear_modulus(),
             reach,
         })
     }

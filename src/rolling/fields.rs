@@ -3,10 +3,9 @@
 use super::line::Line;
 use super::model::RollingModel;
 use super::state::State;
-use crate::config::Config;
 use crate::heat::HeatError;
-use crate::mechanics::MechanicsError;
 use crate::mechanics::field::{NodalLoads, add_loads, rail_field, wheel_field};
+use crate::mechanics::{BodyParameters, MechanicsError};
 use nalgebra::DVector;
 
 pub use crate::heat::TemperatureField;
@@ -39,13 +38,13 @@ pub struct Fields {
 
 /// Fields of a state of the full response.
 pub fn fields(model: &RollingModel, state: &State) -> Result<Fields, FieldError> {
-    let (config, motion) = (&model.config, &state.motion);
-    let lift = |nodes: &mut [[f64; 2]]| nodes.iter_mut().for_each(|[_, y]| *y += config.wheel.radius);
+    let (bodies, motion) = (&BodyParameters::from(&model.config), &state.motion);
+    let lift = |nodes: &mut [[f64; 2]]| nodes.iter_mut().for_each(|[_, y]| *y += bodies.radius);
     let (nodes, ports) =
-        ([nodal_loads(config, state, 0)?, nodal_loads(config, state, 1)?], [0, 1].map(|body| state.loads(body)));
+        ([nodal_loads(bodies, state, 0)?, nodal_loads(bodies, state, 1)?], [0, 1].map(|body| state.loads(body)));
     let loads = |body: usize| NodalLoads { nodes: &nodes[body], ports: &ports[body] };
-    let mut wheel = wheel_field(config, &state.wheel, motion.omega.now, loads(0))?.ok_or(FieldError::Reduced)?;
-    let mut rail = rail_field(config, &state.rail, motion.velocity.now, loads(1))?.ok_or(FieldError::Reduced)?;
+    let mut wheel = wheel_field(bodies, &state.wheel, motion.omega.now, loads(0))?.ok_or(FieldError::Reduced)?;
+    let mut rail = rail_field(bodies, &state.rail, motion.velocity.now, loads(1))?.ok_or(FieldError::Reduced)?;
     lift(&mut wheel.mesh.nodes);
     wheel.displacement.iter_mut().for_each(|[_, y]| *y += motion.height.now);
     wheel.velocity.iter_mut().for_each(|[_, y]| *y += motion.height.rate);
@@ -64,7 +63,7 @@ pub fn fields(model: &RollingModel, state: &State) -> Result<Fields, FieldError>
 
 /// Forces of all lines on the surface nodes of wheel (0) or rail (1), x and y of each, contact forces and the pull of hot
 /// layers [N/m].
-fn nodal_loads(config: &Config, state: &State, body: usize) -> Result<DVector<f64>, MechanicsError> {
+fn nodal_loads(bodies: &BodyParameters, state: &State, body: usize) -> Result<DVector<f64>, MechanicsError> {
     let sign = if body == 0 { 1.0 } else { -1.0 };
     let mut sum = DVector::zeros(0);
     for line in &state.lines {
@@ -73,7 +72,7 @@ fn nodal_loads(config: &Config, state: &State, body: usize) -> Result<DVector<f6
         let guards = (loads.len() / 2).saturating_sub(nodes.pull[body].len()) / 2;
         nodes.pull[body].iter().enumerate().for_each(|(i, pull)| loads[2 * (i + guards)] += pull);
         loads *= line.layout.share;
-        add_loads(config, nodes.size, &loads, &mut sum)?;
+        add_loads(bodies, nodes.size, &loads, &mut sum)?;
     }
     Ok(sum)
 }

@@ -67,7 +67,7 @@ pub struct Workspace {
 impl RollingModel {
     /// Refuses a configuration whose meshes would take more memory and time than is sensible, in microseconds.
     pub fn check_size(config: &Config) -> Result<(), ModelError> {
-        mechanics::check_size(config)?;
+        mechanics::check_size(&config.into())?;
         if config.thermal.enabled {
             thermal::check_size(config)?;
         }

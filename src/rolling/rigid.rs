@@ -9,7 +9,7 @@ use crate::axes::{Axis, PerAxis};
 use crate::config::Config;
 use crate::contact::{AxisDrive, RigidMotion};
 use crate::material::Isotropic;
-use crate::mechanics;
+use crate::mechanics::BodyParameters;
 use crate::mechanics::response::{FreeResponse, StepOperator};
 use crate::multistep::TimeDerivative;
 use nalgebra::DVector;
@@ -42,10 +42,10 @@ pub struct RigidWheel {
 impl RigidWheel {
     /// From the parameters.
     pub fn new(config: &Config, wheelset: Wheelset) -> Self {
-        let width = config.width();
-        let mass = mechanics::wheel_mass(config) + config.wheel.hub_mass / width;
+        let (width, bodies) = (config.width(), BodyParameters::from(config));
+        let mass = bodies.wheel_mass() + config.wheel.hub_mass / width;
         let lateral = mass + config.wheel.lateral_mass / width;
-        let moment = mechanics::wheel_inertia(config) + config.wheel.hub_inertia / width;
+        let moment = bodies.wheel_inertia() + config.wheel.hub_inertia / width;
         Self {
             radius: config.wheel.radius,
             width,

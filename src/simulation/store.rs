@@ -42,7 +42,7 @@ pub struct StoreError {
 
 /// File name of the stored basis of a configuration.
 pub fn basis_file_name(config: &Config) -> String {
-    format!("{}.bin", mechanics::basis::key(config))
+    format!("{}.bin", mechanics::basis::key(&config.into()))
 }
 
 impl BasisStore {
@@ -107,7 +107,7 @@ impl BasisStore {
         let fitting = |bytes: Vec<u8>, path: &Path| {
             let wrong = |error: BasisError| StoreError { path: path.to_owned(), problem: error.to_string() };
             let basis = Basis::from_bytes(&bytes).map_err(wrong)?;
-            Ok(Some((basis, bytes)).filter(|(basis, _)| basis.fits(config)))
+            Ok(Some((basis, bytes)).filter(|(basis, _)| basis.fits(&config.into())))
         };
         let read = |directory: &PathBuf| -> Result<Option<(Basis, Vec<u8>)>, StoreError> {
             let path = directory.join(&name);

@@ -6,7 +6,7 @@ mod texts;
 use super::Simulation;
 use crate::contact::FrictionLaw;
 use crate::material::{BOILS, INDENTATION};
-use crate::mechanics::grid_spacing;
+use crate::mechanics::BodyParameters;
 use crate::rolling::line::Line;
 
 /// Makes the enumeration and the list of its items.
@@ -255,7 +255,8 @@ impl Simulation {
     /// Largest error of the force over a sharp hole of a `length` \[m] by the grid, over the load \[1].
     fn error_over_a_hole(&self, length: f64) -> f64 {
         let config = self.model().config();
-        let (half_width, element) = (self.model().rolling.contact.nominal_half_width(), grid_spacing(config));
+        let (half_width, element) =
+            (self.model().rolling.contact.nominal_half_width(), BodyParameters::from(config).grid_spacing());
         HOLE * element * (length + element) / (half_width * half_width)
     }
 

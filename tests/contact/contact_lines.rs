@@ -27,8 +27,8 @@ const HALVES: [f64; 2] = [0.5, 0.5];
 /// The model of a configuration, with lines of given shares side by side.
 fn model(config: &Config, shares: &[f64]) -> Result<RollingModel, ModelError> {
     let found = common::store().find(config).unwrap();
-    let basis = found.map_or_else(|| Basis::compute(config, &mut |_, _| {}).unwrap(), |(basis, _)| basis);
-    let pair = bodies(config, Some(basis), &mut |_, _| {}).unwrap();
+    let basis = found.map_or_else(|| Basis::compute(&config.into(), &mut |_, _| {}).unwrap(), |(basis, _)| basis);
+    let pair = bodies(&config.into(), Some(basis), &mut |_, _| {}).unwrap();
     let profiles = [&config.wheel.profile, &config.rail.profile].map(String::as_str);
     let surfaces = Surfaces::parse(config.wheel.radius, profiles, None).unwrap();
     let model = RollingModel::new(config.clone(), pair, surfaces)?;

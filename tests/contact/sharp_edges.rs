@@ -1,7 +1,6 @@
 //! Sharp edges of rail and wheel: what lies deeper than anything touches counts neither in forces nor in the energy.
 
 use crate::common::{self, model, prescribed, preset};
-use wheelrail::mechanics::nominal_half_width;
 use wheelrail::simulation::{Rotation, Simulation, Translation};
 
 /// Speed [m/s], distance of the edge \[m], steps for the hole, elements per half-width and length of the hole over it.
@@ -24,7 +23,7 @@ fn on_mesh(shape: &str, depth: f64, wheel: bool, free: bool, mesh: (usize, f64),
     let (elements, steps) = mesh;
     let mut config = preset("railway", elements);
     (config.thermal.enabled, config.tuning.tolerance, config.physics.yielding) = (false, 0.0, yields);
-    let length = SIZE * nominal_half_width(&config);
+    let length = SIZE * config.nominal_patch().half_length;
     let text = shape.replace("DEPTH", &format!("{depth:?}")).replace("LENGTH", &format!("{length:?}"));
     *(if wheel { &mut config.wheel.profile } else { &mut config.rail.profile }) = text;
     let model = model(config);

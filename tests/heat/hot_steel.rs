@@ -7,7 +7,7 @@ use wheelrail::config::{Config, Material, StartTemperature};
 use wheelrail::heat::{
     Exchange, HeatError, HeatFlows, HeatLine, HeatModel, HeatScratch, HeatState, Observation, TemperatureField,
 };
-use wheelrail::material::{melted_share, yield_share};
+use wheelrail::material::{MeltingFilm, melted_share, yield_share};
 use wheelrail::mechanics::{Basis, bodies};
 use wheelrail::rolling::outputs::observe;
 use wheelrail::rolling::{Inputs, RollingModel, Rotation, State, Translation, Workspace, stationary};
@@ -91,8 +91,8 @@ impl HeatModel for Told {
 /// State of a standing wheel on heat that is told, and its outputs.
 fn standing(config: &Config, told: &Told) -> (State, Outputs) {
     let basis = common::store().find(config).unwrap();
-    let basis = basis.map_or_else(|| Basis::compute(config, &mut |_, _| {}).unwrap(), |(basis, _)| basis);
-    let pair = bodies(config, Some(basis), &mut |_, _| {}).unwrap();
+    let basis = basis.map_or_else(|| Basis::compute(&config.into(), &mut |_, _| {}).unwrap(), |(basis, _)| basis);
+    let pair = bodies(&config.into(), Some(basis), &mut |_, _| {}).unwrap();
     let model = RollingModel::new(config.clone(), pair, Surfaces::smooth(config.wheel.radius)).unwrap();
     let model = model
         .with_heat(|config| {
@@ -230,7 +230,8 @@ fn rolling_steel_of_any_temperature_bears_prandtls_pressure_of_its_strength_in_t
 /// `docs/theory/limits-of-steel.md`, section 7: 1 at the solidus, that of a film at the liquidus, none 40 K above.
 #[test]
 fn friction_of_molten_steel_falls_to_that_of_its_film_and_to_none_40_kelvin_above_the_liquidus() {
-    let material = Material { film_friction: 0.1, ..Material::default() };
+    let material = Material::default();
+    let film = MeltingFilm { solidus: material.solidus, liquidus: material.liquidus, friction: 0.1 };
     let middle = 0.5 * (material.solidus + material.liquidus);
     for (temperature, share) in [
         (material.solidus - 50.0, 1.0),
@@ -240,7 +241,7 @@ fn friction_of_molten_steel_falls_to_that_of_its_film_and_to_none_40_kelvin_abov
         (material.liquidus + 20.0, 0.05),
         (material.liquidus + 40.0, 0.0),
     ] {
-        let found = melted_share(0.0, temperature, &material);
+        let found = melted_share(0.0, temperature, &film);
         println!("{temperature} K: {found}");
         assert!((found - share).abs() < 1e-12, "{temperature} K: {found} for {share}");
     }

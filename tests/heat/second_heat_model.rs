@@ -188,9 +188,9 @@ fn models(start: StartTemperature) -> [RollingModel; 2] {
     // The flash model has no swelling, and a friction that follows the flash varies from step to step.
     (config.material.expansion, config.tuning.softening) = (0.0, 0.0);
     let basis = common::store().find(&config).unwrap();
-    let basis = basis.map_or_else(|| Basis::compute(&config, &mut |_, _| {}).unwrap(), |(basis, _)| basis);
+    let basis = basis.map_or_else(|| Basis::compute(&(&config).into(), &mut |_, _| {}).unwrap(), |(basis, _)| basis);
     let [flash, tensor] = [(); 2].map(|()| {
-        let pair = bodies(&config, Some(basis.clone()), &mut |_, _| {}).unwrap();
+        let pair = bodies(&(&config).into(), Some(basis.clone()), &mut |_, _| {}).unwrap();
         RollingModel::new(config.clone(), pair, Surfaces::smooth(config.wheel.radius)).unwrap()
     });
     [flash.with_heat(|config| Ok(Box::new(FlashModel::new(config)))).unwrap(), tensor]

@@ -12,7 +12,7 @@ use wheelrail::multistep::TimeDerivative;
 #[test]
 fn a_step_of_a_reduced_body_allocates_nothing() {
     let config = preset("paper_d", 6);
-    let undamped = wheel_system(&config).unwrap();
+    let undamped = wheel_system(&(&config).into()).unwrap();
     let dashpots = BodySystem { damping: Some(undamped.mass.clone()), ..undamped.clone() };
     let damping = BodyDamping { ratios: [1e-2; 4] };
     let cases = [(undamped.clone(), BodyDamping::NONE), (dashpots, BodyDamping::NONE), (undamped, damping)];

@@ -41,8 +41,9 @@ enum Place {
 }
 
 /// Crates of the workspace that hold rooms of the product, from the ground up, and where their source lies.
-pub const MEMBERS: [(&str, &str); 4] = [
+pub const MEMBERS: [(&str, &str); 5] = [
     ("wheelrail_numerics", "numerics/src/"),
+    ("wheelrail_bodies", "bodies/src/"),
     ("wheelrail_heat", "heat/src/"),
     ("wheelrail_contact", "contact/src/"),
     ("wheelrail_surface", "surface/src/"),

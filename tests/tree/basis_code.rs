@@ -5,14 +5,8 @@ use std::path::Path;
 use wheelrail::mechanics::basis::CODE;
 
 /// Sources on which a basis depends, besides the configuration.
-const SOURCES: [&str; 6] = [
-    "contact/src/axes.rs",
-    "numerics/src/analytic.rs",
-    "numerics/src/fem",
-    "numerics/src/linalg",
-    "src/material.rs",
-    "src/mechanics",
-];
+const SOURCES: [&str; 5] =
+    ["bodies/src", "numerics/src/analytic.rs", "numerics/src/axes.rs", "numerics/src/fem", "numerics/src/linalg"];
 
 /// Relative names of a file, or of all files in a directory.
 fn names(root: &Path, name: &str) -> Vec<String> {

@@ -36,7 +36,7 @@ fn paths(text: &str) -> impl Iterator<Item = &str> {
 
 /// True for a word that is a path of this repository.
 fn is_path(word: &str) -> bool {
-    const ROOMS: [&str; 14] = [
+    const ROOMS: [&str; 15] = [
         "src/",
         "tests/",
         "docs/",
@@ -46,6 +46,7 @@ fn is_path(word: &str) -> bool {
         "resources/",
         "packaging/",
         "python/",
+        "bodies/src/",
         "contact/src/",
         "contact/tests/",
         "heat/src/",

@@ -78,8 +78,8 @@ fn stress_without_friction_is_that_of_hertz() {
     let model = model(config.clone());
     let inputs = prescribed(&model, config.initial.velocity, 0.0);
     let fields = Simulation::new(model, &inputs).unwrap().fields().unwrap();
-    assert_eq!(fields.wheel.mesh.nodes.len(), wheel_mesh(&config).unwrap().nodes.len());
-    assert_eq!(fields.rail.mesh.nodes.len(), rail_mesh(&config).unwrap().nodes.len());
+    assert_eq!(fields.wheel.mesh.nodes.len(), wheel_mesh(&(&config).into()).unwrap().nodes.len());
+    assert_eq!(fields.rail.mesh.nodes.len(), rail_mesh(&(&config).into()).unwrap().nodes.len());
     let load = config.model.nominal_load / config.model.contact_width;
     for (body, radius, name) in [(&fields.wheel, config.wheel.radius, "wheel"), (&fields.rail, f64::INFINITY, "rail")] {
         let axis = axis(&body.mesh, 4.0 * a);

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use wheelrail::analytic::hertz_half_width;
 use wheelrail::config::Config;
 use wheelrail::material::Isotropic;
-use wheelrail::mechanics::wheel_mass;
+use wheelrail::mechanics::BodyParameters;
 use wheelrail::simulation::{Inputs, Model, Simulation};
 
 /// Contact resonance of the wheel of Paper A, from an independent eigenvalue analysis [rad/s].
@@ -52,7 +52,7 @@ fn bessel(z: f64) -> f64 {
 
 /// Mass of the wheel [kg].
 fn mass(config: &Config) -> f64 {
-    wheel_mass(config) * config.model.contact_width
+    BodyParameters::from(config).wheel_mass() * config.model.contact_width
 }
 
 /// Force per displacement of the mass on the contact spring [N/m].

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use wheelrail::analytic::hub_torsion;
 use wheelrail::config::{Config, Damping, Response};
 use wheelrail::material::Isotropic;
-use wheelrail::mechanics::{Basis, BodyDamping, wheel_mass};
+use wheelrail::mechanics::{Basis, BodyDamping, BodyParameters};
 use wheelrail::rolling::State;
 use wheelrail::simulation::{Inputs, Model, Outputs, Rotation, Simulation};
 
@@ -100,7 +100,7 @@ fn undamped(elements: usize) -> Config {
 
 /// Mass of wheel and hub \[kg].
 fn bouncing_mass(config: &Config) -> f64 {
-    config.wheel.hub_mass + wheel_mass(config) * config.model.contact_width
+    config.wheel.hub_mass + BodyParameters::from(config).wheel_mass() * config.model.contact_width
 }
 
 /// A mass on a spring and a damper: `c/(2 m ω)`.
@@ -129,8 +129,8 @@ fn modes_of_both_bodies_have_the_ratios_that_their_parameters_give() {
     let damping = &mut config.damping;
     (damping.wheel_torsion, damping.wheel_radial) = (0.1, 0.2);
     (damping.wheel_one_diameter, damping.wheel_more_diameters, damping.rail) = (0.3, 0.4, 0.5);
-    assert_eq!(BodyDamping::wheel(&config), BodyDamping { ratios: [0.1, 0.2, 0.3, 0.4] });
-    assert_eq!(BodyDamping::rail(&config), BodyDamping { ratios: [0.5; 4] });
+    let damping = BodyParameters::from(&config).damping;
+    assert_eq!(damping, [BodyDamping { ratios: [0.1, 0.2, 0.3, 0.4] }, BodyDamping { ratios: [0.5; 4] }]);
 }
 
 /// Each mode gives its share `s_i` of the flexibility under the bounce the loss factor `2 ζ_i ω/ω_i`:
@@ -160,8 +160,7 @@ fn bounce_on_the_contact_decays_with_the_share_of_the_damped_modes() {
     let omega = frequency(&signal, TAU / guess / 400.0);
     let mut expected = 0.0;
     let acceleration = line_load * model.config().model.contact_width / bouncing_mass(model.config());
-    let bodies = [(&basis.wheel, BodyDamping::wheel(model.config())), (&basis.rail, BodyDamping::rail(model.config()))];
-    for (basis, damping) in bodies {
+    for (basis, damping) in [&basis.wheel, &basis.rail].into_iter().zip(BodyParameters::from(model.config()).damping) {
         for (i, shape) in basis.shapes.column_iter().enumerate() {
             let (square, ratio) = (basis.squared_frequencies[i], damping.ratios[basis.character.group(i)]);
             // The contact lies within the middle of the paired nodes.

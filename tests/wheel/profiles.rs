@@ -4,7 +4,6 @@
 use crate::common::{self, KMH, model, prescribed, preset, store};
 use std::sync::Arc;
 use wheelrail::config::{Config, Damping};
-use wheelrail::mechanics::nominal_half_width;
 use wheelrail::simulation::validity::Limit;
 use wheelrail::simulation::{Drive, Inputs, Model, Outputs, Simulation, StepError, advice};
 
@@ -56,7 +55,7 @@ fn a_hole_unloads_the_contact_splits_it_in_two_and_is_left_with_a_small_peak() {
 fn least_over_a_hole(elements: usize, size: f64) -> f64 {
     let mut config = cold(preset("railway", elements));
     config.physics.yielding = false;
-    let length = size * nominal_half_width(&config);
+    let length = size * config.nominal_patch().half_length;
     config.rail.profile = format!("hole(position = 0.01, length = {length:?}, depth = 1e-3)");
     let model = model(config);
     let inputs = without_friction(&model, 20.0);
@@ -71,7 +70,7 @@ fn least_over_a_hole(elements: usize, size: f64) -> f64 {
 fn the_force_over_short_holes_errs_by_less_than_the_guard_says() {
     let said = |elements: usize, size: f64| -> f64 {
         let mut config = cold(preset("railway", elements));
-        let length = size * nominal_half_width(&config);
+        let length = size * config.nominal_patch().half_length;
         config.rail.profile = format!("hole(position = 2e-3, length = {length:?}, depth = 1e-3)");
         let model = model(config);
         let text =

@@ -3,7 +3,7 @@
 use crate::common::{self, model, preset, shipped};
 use std::sync::Arc;
 use wheelrail::config::{Config, Damping, StartTemperature};
-use wheelrail::mechanics::{wheel_inertia, wheel_mass};
+use wheelrail::mechanics::BodyParameters;
 use wheelrail::simulation::{
     Drive, Inputs, Model, Outputs, Rotation, Simulation, StepError, Translation, Vertical, advice,
 };
@@ -48,8 +48,9 @@ fn force_and_change(model: &Arc<Model>, inputs: &Inputs, dt: f64, time: f64) -> 
 /// Mass with vehicle [kg] and moment of inertia [kg m²] of the whole wheel.
 fn inertia(config: &Config) -> [f64; 2] {
     let width = config.model.contact_width;
-    let mass = wheel_mass(config) * width + config.wheel.hub_mass + config.vehicle.mass;
-    [mass, wheel_inertia(config) * width + config.wheel.hub_inertia]
+    let bodies = BodyParameters::from(config);
+    let mass = bodies.wheel_mass() * width + config.wheel.hub_mass + config.vehicle.mass;
+    [mass, bodies.wheel_inertia() * width + config.wheel.hub_inertia]
 }
 
 /// The rest is the rolling resistance of the damping, up to 0.03 N at 80 m/s; it does not change.

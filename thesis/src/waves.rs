@@ -6,9 +6,10 @@ use nalgebra::DVector;
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
 use wheelrail::axes::PerAxis;
-use wheelrail::config::{Config, Material, RailEnds};
+use wheelrail::config::{Config, RailEnds};
 use wheelrail::fem::{DofMap, Face, FemError, Mesh, assemble};
 use wheelrail::linalg::CsrMatrix;
+use wheelrail::material::Isotropic;
 use wheelrail::mechanics::ale::Stream;
 use wheelrail::mechanics::elasticity::{self, Lame};
 use wheelrail::mechanics::{BodyResponse, BodyState, BodySystem, Convection, FreeResponse, FullBody};
@@ -18,8 +19,8 @@ use wheelrail::multistep::TimeDerivative;
 const FREQUENCY: f64 = 5e4;
 
 /// The steel of Paper A.
-pub fn steel() -> Material {
-    Material { youngs_modulus: 200e9, density: 8000.0, ..Config::default().material }
+pub fn steel() -> Isotropic {
+    Isotropic { youngs_modulus: 200e9, density: 8000.0, ..Isotropic::from(&Config::default().material) }
 }
 
 /// Plate `|x| ≤ length/2`, `−height ≤ y ≤ 0` of square cells of the size `h` \[m] on a fixed base; all of its top are

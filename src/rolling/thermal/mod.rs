@@ -102,7 +102,7 @@ pub struct ThermalLine<'a> {
 /// Refuses, before any memory is taken, a configuration on whose mesh [`ThermalModel::new`] would fail: too many
 /// elements in the contact zone, on whose number the size of the heat model depends.
 pub fn check_size(config: &Config) -> Result<(), HeatError> {
-    let zone = mechanics::contact_zone(config);
+    let zone = mechanics::contact_zone(&config.into());
     let reach = (zone.candidates() / 2 + 1) as f64 * zone.spacing();
     heat_parameters(config, zone.half_width, reach, reach.max(zone.reach)).validate()
 }
@@ -122,7 +122,7 @@ impl ThermalModel {
         reach: f64,
         heat: impl FnOnce(&HeatParameters) -> Result<Box<dyn HeatModel>, HeatError>,
     ) -> Result<Self, HeatError> {
-        let half_width = mechanics::nominal_half_width(config);
+        let half_width = config.nominal_patch().half_length;
         let heat = heat(&heat_parameters(config, half_width, zone + margin, reach.max(zone + margin)))?;
         Ok(Self {
             history: MaterialHistory::new(config, &*heat, half_width, zone),

@@ -1,10 +1,10 @@
 //! Weakening of the steel under the contact by heat: less strength deep below the surface, less friction where the
 //! surface melts.
 
-use crate::config::{Config, Material};
+use crate::config::Config;
 use crate::contact::Traction;
 use crate::heat::{HeatModel, Observation};
-use crate::material::{FILM_GROWS, SOFTENS, melted_share, yield_share};
+use crate::material::{FILM_GROWS, MeltingFilm, SOFTENS, melted_share, yield_share};
 use crate::piecewise::{Piecewise, interpolate, smear};
 use crate::rolling::error::StepError;
 use crate::rolling::thermal_state::ThermalState;
@@ -31,7 +31,7 @@ const CUT: f64 = 0.75;
 /// Law by which steel weakens.
 #[derive(Clone, Debug)]
 pub struct WeakSteel {
-    material: Material,
+    film: MeltingFilm,
     /// Absolute temperature of excess zero [K].
     reference: f64,
     /// See [`Config::yields`].
@@ -43,16 +43,18 @@ pub struct WeakSteel {
 impl WeakSteel {
     /// Law for the parameters.
     pub fn new(config: &Config) -> Self {
-        let (material, reference) = (config.material.clone(), config.thermal.reference);
+        let (material, reference) = (&config.material, config.thermal.reference);
         let melts = material.latent_heat > 0.0 && reference < material.solidus;
         // Beyond the solidus nothing is known of strength, and bodies that are so hot as a whole are no steel.
         let start = reference + config.thermal.wheel_excess.max(0.0);
-        Self { melts, yields: config.physics.yielding && start < material.solidus, reference, material }
+        let film =
+            MeltingFilm { solidus: material.solidus, liquidus: material.liquidus, friction: material.film_friction };
+        Self { melts, yields: config.physics.yielding && start < material.solidus, reference, film }
     }
 
     /// Absolute temperature at which melting is complete \[K]; `None` where it does not act on friction.
     pub fn liquidus(&self) -> Option<f64> {
-        (self.melts && self.material.film_friction < 1.0).then_some(self.material.liquidus)
+        (self.melts && self.film.friction < 1.0).then_some(self.film.liquidus)
     }
 
     /// Fills `thermal.weakening` from the temperatures `seen` after a step of `dt` \[s] within which a unit of power per area
@@ -71,7 +73,7 @@ impl WeakSteel {
         weakening.warmer_wheel.clear();
         let hottest = self.reference + thermal.temperatures.wheel_max.max(thermal.temperatures.rail_max);
         if self.melts {
-            match hottest <= SOFTENS || weakening.film.is_empty() && hottest <= self.material.solidus {
+            match hottest <= SOFTENS || weakening.film.is_empty() && hottest <= self.film.solidus {
                 true => weakening.film.clear(),
                 false => self.melt(heat.zone_x(), [dt, warming], traction, seen, &mut weakening.film),
             }
@@ -120,7 +122,7 @@ impl WeakSteel {
         let pressed = |at: f64| traction.patches.iter().any(|patch| patch.low <= at && at <= patch.high);
         let places = zone.iter().zip(wheel.iter().zip(rail).map(|(wheel, rail)| wheel.max(*rail)));
         let places = places.filter(|(at, _)| pressed(**at));
-        let is_solid = |hot: f64| self.reference + hot <= self.material.solidus;
+        let is_solid = |hot: f64| self.reference + hot <= self.film.solidus;
         let all_solid = places.clone().all(|(_, hot)| is_solid(hot));
         for (&at, hot) in places {
             let share = if before.is_empty() { 1.0 } else { interpolate(&before.x, &before.value, at) };
@@ -128,7 +130,7 @@ impl WeakSteel {
             let whole = (traction.friction.coefficient * traction.pressure.at(at) * slip).abs();
             let rise = (warming * whole).min(hot.max(0.0) / share.max(LEAST));
             let rest = self.reference + hot - share * rise;
-            let found = melted_share(rise, rest, &self.material);
+            let found = melted_share(rise, rest, &self.film);
             let most = match is_solid(hot) {
                 true if all_solid => 1.0,
                 true => share.max(LEAST) * (1.0 + dt / FREEZES),

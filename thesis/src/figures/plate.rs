@@ -5,7 +5,6 @@ use crate::plot::{Plot, Source};
 use crate::quoted::Status;
 use crate::waves::{Push, deviation, steel};
 use wheelrail::config::RailEnds;
-use wheelrail::material::Isotropic;
 
 /// Elements of Paper A with the three steps in a quarter period that come next to its 10 µs; half the size with eight
 /// steps.
@@ -38,7 +37,7 @@ pub fn energy() -> Result<Figure, String> {
     let [along, against] = [moving[0].clone()?, moving[1].clone()?];
     let left = |history: &[f64]| history[history.len() - 1] / history[0];
     let [four, quiet, free] = [0, 1, 2].map(|i| left(&fine[i]));
-    let material = Isotropic::from(&steel());
+    let material = steel();
     let arrival = [material.pressure_wave_speed(), material.shear_wave_speed()].map(|speed| 0.5e6 / speed);
     let step = Push { length: 1.0, ends: RailEnds::Free, speed: 0.0, size: FINE.0, quarter: FINE.1 }.step();
     let time = |k: usize| 1e6 * step * (k + FINE.1 as usize) as f64;

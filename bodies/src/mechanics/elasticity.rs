@@ -1,6 +1,5 @@
 //! Linear elasticity in plane strain: stiffness and mass of one cell.
 
-use crate::config::Material;
 use crate::fem::CellPoint;
 use crate::fem::assembly::{ElementMatrix, both_components};
 use crate::material::Isotropic;
@@ -14,9 +13,8 @@ pub struct Lame {
     pub mu: f64,
 }
 
-impl From<&Material> for Lame {
-    fn from(material: &Material) -> Self {
-        let material = Isotropic::from(material);
+impl From<&Isotropic> for Lame {
+    fn from(material: &Isotropic) -> Self {
         Self { lambda: material.lame(), mu: material.shear_modulus() }
     }
 }

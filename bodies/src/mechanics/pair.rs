@@ -1,18 +1,15 @@
-//! Wheel and rail together, as the configuration wants them.
+//! Wheel and rail together, as their parameters want them.
 
 use super::basis::Basis;
-use super::damping::BodyDamping;
 use super::error::MechanicsError;
 use super::full::FullBody;
-use super::layout::{grid_cells_per_element, grid_spacing};
 use super::meshes::{rail_system, wheel_system};
 use super::motion::BodyResponse;
+use super::parameters::BodyParameters;
 use super::reduced::ReducedBody;
 use super::size::contact_zone;
 use super::smooth::SmoothPorts;
-use crate::config::Config;
 use crate::fem::graded::GUARDS;
-use crate::material::Isotropic;
 use std::ops::Range;
 
 /// Both bodies, less half-planes, behind their common interface, and the contact grid they share. Their ports are the
@@ -34,20 +31,19 @@ pub struct Pair {
     pub zone: f64,
 }
 
-/// Builds the bodies: reduced ones from a basis that fits the configuration, full ones without.
+/// Builds the bodies: reduced ones from a basis that fits them, full ones without.
 ///
 /// `progress` receives the activity and the share of it done, 0 to 1.
 pub fn bodies(
-    config: &Config,
+    c: &BodyParameters,
     basis: Option<Basis>,
     progress: &mut dyn FnMut(&str, f64),
 ) -> Result<Pair, MechanicsError> {
-    let zone = contact_zone(config);
-    let (elements, wing, parts) = (zone.surface_x(), zone.wing_nodes(), grid_cells_per_element(config));
+    let zone = contact_zone(c);
+    let (elements, wing, parts) = (zone.surface_x(), zone.wing_nodes(), c.grid_cells_per_element());
     let points = SmoothPorts::new(&elements)?;
-    let half_plane = Isotropic::from(&config.material).half_plane();
-    let damping = [BodyDamping::wheel(config), BodyDamping::rail(config)];
-    let centrifugal = config.physics.centrifugal;
+    let half_plane = c.material.half_plane();
+    let (damping, centrifugal) = (&c.damping, c.centrifugal);
     // The wheel lies above its surface, the rail below.
     let [above, below] = [1.0, -1.0];
     let [wheel, rail]: [Box<dyn BodyResponse>; 2] = match basis {
@@ -57,10 +53,9 @@ pub fn bodies(
         ],
         None => {
             progress("assembling the wheel", 0.0);
-            let counts = [config.solver.modes_wheel, config.solver.modes_rail];
-            let wheel = FullBody::damped(wheel_system(config)?, centrifugal, &damping[0], counts[0])?;
+            let wheel = FullBody::damped(wheel_system(c)?, centrifugal, &damping[0], c.modes[0])?;
             progress("assembling the rail", 0.5);
-            let rail = FullBody::damped(rail_system(config)?, false, &damping[1], counts[1])?;
+            let rail = FullBody::damped(rail_system(c)?, false, &damping[1], c.modes[1])?;
             progress("assembling the rail", 1.0);
             [Box::new(wheel.smooth(&points, half_plane, above)?), Box::new(rail.smooth(&points, half_plane, below)?)]
         }
@@ -68,7 +63,7 @@ pub fn bodies(
     let surface_x = divided(&elements, parts);
     let zone = surface_x[surface_x.len() - 1 - parts * wing - GUARDS];
     let candidates = GUARDS..surface_x.len() - GUARDS;
-    Ok(Pair { wheel, rail, reach: points.basis.reach, surface_x, spacing: grid_spacing(config), candidates, zone })
+    Ok(Pair { wheel, rail, reach: points.basis.reach, surface_x, spacing: c.grid_spacing(), candidates, zone })
 }
 
 /// The nodes `x` \[m], ascending, and those that divide every cell between them into `parts` equal ones: contact needs nodes

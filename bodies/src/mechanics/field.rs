@@ -2,10 +2,10 @@
 
 use super::ale::Stream;
 use super::elasticity::Lame;
+use super::parameters::BodyParameters;
 use super::response::BodyState;
 use super::smooth::SmoothPorts;
 use super::{BodySystem, MechanicsError, contact_zone, rail_mesh, rail_system, wheel_mesh, wheel_system};
-use crate::config::Config;
 use crate::fem::{DofMap, Mesh, element};
 use crate::linalg::Cholesky;
 use nalgebra::{DVector, Matrix3x4, Matrix4, Matrix4x3, RowVector3};
@@ -48,24 +48,24 @@ pub struct BodyField {
 
 /// Fields of the wheel that turns with `omega` [rad/s] under `loads`; `None` if the state is not one of the full response.
 pub fn wheel_field(
-    config: &Config,
+    c: &BodyParameters,
     state: &BodyState,
     omega: f64,
     loads: NodalLoads,
 ) -> Result<Option<BodyField>, MechanicsError> {
-    let body = (wheel_mesh(config)?, wheel_system as fn(&Config) -> _);
-    BodyField::recover(config, body, Stream::Rotation, (state, omega), loads)
+    let body = (wheel_mesh(c)?, wheel_system as fn(&BodyParameters) -> _);
+    BodyField::recover(c, body, Stream::Rotation, (state, omega), loads)
 }
 
 /// Fields of the rail under a wheel that travels with `velocity` [m/s]; `None` as for the wheel.
 pub fn rail_field(
-    config: &Config,
+    c: &BodyParameters,
     state: &BodyState,
     velocity: f64,
     loads: NodalLoads,
 ) -> Result<Option<BodyField>, MechanicsError> {
-    let body = (rail_mesh(config)?, rail_system as fn(&Config) -> _);
-    BodyField::recover(config, body, Stream::Translation, (state, velocity), loads)
+    let body = (rail_mesh(c)?, rail_system as fn(&BodyParameters) -> _);
+    BodyField::recover(c, body, Stream::Translation, (state, velocity), loads)
 }
 
 /// Loads on the surface of a body: at its nodes, x and y of each, and their moments, which the state of the body has answered
@@ -81,12 +81,12 @@ pub struct NodalLoads<'a> {
 /// Adds loads at the nodes of a contact grid, which are `size` times as far apart as the surface nodes of the bodies, to those at
 /// these, x and y of each: every load acts on both nodes beside it, with the same force and moment.
 pub fn add_loads(
-    config: &Config,
+    c: &BodyParameters,
     size: f64,
     loads: &DVector<f64>,
     sum: &mut DVector<f64>,
 ) -> Result<(), MechanicsError> {
-    let x = contact_zone(config).surface_x();
+    let x = contact_zone(c).surface_x();
     if sum.is_empty() {
         *sum = DVector::zeros(2 * x.len());
     }
@@ -105,8 +105,8 @@ pub fn add_loads(
 impl NodalLoads<'_> {
     /// Displacement of all unknowns of a body by what its state has not answered, at rest \[m]: close to the contact the
     /// answer to moments is not that to the loads.
-    fn local(&self, config: &Config, system: &BodySystem) -> Result<DVector<f64>, MechanicsError> {
-        let answered = SmoothPorts::new(&contact_zone(config).surface_x())?.components().tr_mul(self.ports);
+    fn local(&self, c: &BodyParameters, system: &BodySystem) -> Result<DVector<f64>, MechanicsError> {
+        let answered = SmoothPorts::new(&contact_zone(c).surface_x())?.components().tr_mul(self.ports);
         let mut displacement = DVector::zeros(system.unknowns());
         if self.nodes.is_empty() {
             return Ok(displacement);
@@ -120,11 +120,11 @@ impl NodalLoads<'_> {
 }
 
 /// Mesh of a body, and how its finite elements are assembled.
-type MeshedBody = (Mesh, fn(&Config) -> Result<BodySystem, MechanicsError>);
+type MeshedBody = (Mesh, fn(&BodyParameters) -> Result<BodySystem, MechanicsError>);
 
 impl BodyField {
     fn recover(
-        config: &Config,
+        c: &BodyParameters,
         (mesh, assemble): MeshedBody,
         stream: Stream,
         (state, speed): (&BodyState, f64),
@@ -134,7 +134,7 @@ impl BodyField {
         if state.displacement.len() != dofs.len() {
             return Ok(None);
         }
-        let local = loads.local(config, &assemble(config)?)?;
+        let local = loads.local(c, &assemble(c)?)?;
         let nodal = |values: &[f64]| -> Vec<[f64; 2]> {
             let value = |node, component| dofs.unknown(node, component).map_or(0.0, |i| values[i]);
             (0..mesh.nodes.len()).map(|node| [value(node, 0), value(node, 1)]).collect()
@@ -148,10 +148,10 @@ impl BodyField {
                 *v += own + row[0] * flow[0] + row[1] * flow[1];
             }
         }
-        let lame = Lame::from(&config.material);
+        let lame = Lame::from(&c.material);
         let stress = gradient.iter().map(|gradient| {
             let [[xx, xy], [_, yy]] = lame.stress(*gradient);
-            Stress { xx, yy, xy, zz: config.material.poissons_ratio * (xx + yy) }
+            Stress { xx, yy, xy, zz: c.material.poissons_ratio * (xx + yy) }
         });
         Ok(Some(Self { displacement, velocity, stress: stress.collect(), mesh }))
     }

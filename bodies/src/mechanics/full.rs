@@ -284,16 +284,16 @@ impl BodyResponse for FullBody {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::RailEnds;
+    use crate::mechanics::Ends;
     use crate::mechanics::rail_system;
     use crate::mechanics::testing::paper_d;
 
     /// Ratios of modes beside dashpots: the residual of the equations of the step.
     #[test]
     fn the_matrix_of_a_step_with_dashpots_and_damped_modes_is_inverted() {
-        let mut config = paper_d(3);
-        config.rail.ends = RailEnds::Nonreflecting;
-        let system = rail_system(&config).unwrap();
+        let mut bodies = paper_d(3);
+        bodies.rail_ends = Ends::Nonreflecting;
+        let system = rail_system(&bodies).unwrap();
         let damping = BodyDamping { ratios: [0.1; 4] };
         let body = FullBody::damped(system.clone(), false, &damping, 8).unwrap();
         let a0 = 2e4;

@@ -3,9 +3,9 @@
 //! Layout of the bytes: 8 of magic, 8 of [checksum] of the rest, then the postcard form of [`Basis`], whose first field is
 //! its key.
 
+use super::parameters::BodyParameters;
 use super::reduction::ReducedBasis;
 use super::{BodySystem, MechanicsError, check_size, contact_zone, rail_system, wheel_system};
-use crate::config::{Config, ContactShape};
 use serde::{Deserialize, Serialize};
 use std::sync::mpsc;
 use std::{panic, thread};
@@ -20,7 +20,7 @@ const NAMESPACE: Uuid = Uuid::from_u128(0x6f1d_2d0a_5c1e_4f0e_9b57_1f0c_7a5e_33d
 /// Both reduced bodies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Basis {
-    /// [`key`] of the configuration it was computed for.
+    /// [`key`] of the parameters that it was computed for.
     pub key: String,
     /// The wheel.
     pub wheel: ReducedBasis,
@@ -58,23 +58,17 @@ pub enum BasisError {
     },
 }
 
-/// Name of the basis for a configuration: UUID version 5 of the parameters it depends on.
+/// Name of the basis of parameters: UUID version 5 of those that it depends on.
 ///
-/// Geometry, ends of the rail, elasticity, density, mesh, nominal line load, numbers of modes and the code; not masses,
-/// friction or time scheme.
-pub fn key(config: &Config) -> String {
-    let Config { model, wheel, rail, material, mesh, solver, .. } = config;
-    let lengths = [wheel.radius, wheel.hub_radius, rail.length, rail.height];
+/// Geometry, ends of the rail, elasticity, density, mesh, nominal contact, numbers of modes and the code; not damping or
+/// centrifugal forces.
+pub fn key(c: &BodyParameters) -> String {
+    let material = &c.material;
+    let lengths = [c.radius, c.hub_radius, c.rail_length, c.rail_height, c.half_width, contact_zone(c).reach];
     let elastic = [material.youngs_modulus, material.poissons_ratio, material.density];
-    let zone = [contact_zone(config).reach];
-    let line_load = match config.contact.shape {
-        ContactShape::Line => [model.nominal_load / model.contact_width],
-        // No load is negative.
-        ContactShape::Ellipse | ContactShape::Rows => [-config.nominal_patch().half_length],
-    };
-    let counts = [mesh.elements_per_half_width, solver.modes_wheel, solver.modes_rail, rail.ends as usize];
+    let counts = [c.elements, c.modes[0], c.modes[1], c.rail_ends as usize];
     let mut bytes = CODE.as_bytes().to_vec();
-    bytes.extend(lengths.iter().chain(&elastic).chain(&line_load).chain(&zone).flat_map(|value| value.to_le_bytes()));
+    bytes.extend(lengths.iter().chain(&elastic).flat_map(|value| value.to_le_bytes()));
     bytes.extend(counts.iter().flat_map(|&count| (count as u64).to_le_bytes()));
     Uuid::new_v5(&NAMESPACE, &bytes).to_string()
 }
@@ -108,16 +102,16 @@ fn reduced(
 impl Basis {
     /// Meshes, assembles and reduces both bodies, each on a thread of its own (about a second); `progress` receives the
     /// activity and its share done.
-    pub fn compute(config: &Config, progress: &mut dyn FnMut(&str, f64)) -> Result<Self, MechanicsError> {
-        check_size(config)?;
-        let (wheel_modes, rail_modes) = (config.solver.modes_wheel, config.solver.modes_rail);
-        let rail = |report: &mut dyn FnMut(f64)| reduced("rail", rail_modes, || rail_system(config), report);
+    pub fn compute(c: &BodyParameters, progress: &mut dyn FnMut(&str, f64)) -> Result<Self, MechanicsError> {
+        check_size(c)?;
+        let [wheel_modes, rail_modes] = c.modes;
+        let rail = |report: &mut dyn FnMut(f64)| reduced("rail", rail_modes, || rail_system(c), report);
         let (sender, shares) = mpsc::channel();
         thread::scope(|scope| {
             // Nobody listens where the wheel has failed.
             let elsewhere =
                 thread::Builder::new().spawn_scoped(scope, move || rail(&mut |share| _ = sender.send(share)));
-            let wheel = reduced("wheel", wheel_modes, || wheel_system(config), &mut |share| {
+            let wheel = reduced("wheel", wheel_modes, || wheel_system(c), &mut |share| {
                 progress("vibration modes of the wheel", share);
             })?;
             let mut report = |share| progress("vibration modes of the rail", share);
@@ -129,14 +123,14 @@ impl Basis {
                 // The system grants no thread.
                 Err(_) => rail(&mut report)?,
             };
-            Ok(Self { key: key(config), wheel, rail })
+            Ok(Self { key: key(c), wheel, rail })
         })
     }
 
-    /// True if this basis belongs to a configuration.
-    pub fn fits(&self, config: &Config) -> bool {
-        let ports = 2 * contact_zone(config).surface_x().len();
-        self.key == key(config) && self.wheel.is_consistent(ports) && self.rail.is_consistent(ports)
+    /// True if this basis belongs to parameters.
+    pub fn fits(&self, c: &BodyParameters) -> bool {
+        let ports = 2 * contact_zone(c).surface_x().len();
+        self.key == key(c) && self.wheel.is_consistent(ports) && self.rail.is_consistent(ports)
     }
 
     /// Serialised form with header and checksum.
@@ -175,19 +169,17 @@ mod tests {
     use crate::mechanics::testing::{exact_torsion, paper_d};
     use crate::mechanics::*;
 
-    fn small() -> Config {
-        let mut config = paper_d(4);
-        (config.solver.modes_wheel, config.solver.modes_rail) = (6, 5);
-        config
+    fn small() -> BodyParameters {
+        BodyParameters { modes: [6, 5], ..paper_d(4) }
     }
 
     #[test]
     fn bytes_round_trip_and_corruption_is_refused() {
-        let config = small();
+        let small = small();
         let mut seen = Vec::new();
-        let basis = Basis::compute(&config, &mut |what, share| seen.push((what.to_owned(), share))).unwrap();
+        let basis = Basis::compute(&small, &mut |what, share| seen.push((what.to_owned(), share))).unwrap();
         assert!(seen.iter().all(|s| (0.0..=1.0).contains(&s.1)) && seen.last().is_some_and(|s| s.1 == 1.0));
-        assert!(basis.fits(&config));
+        assert!(basis.fits(&small));
         let bytes = basis.to_bytes().unwrap();
         assert_eq!(Basis::from_bytes(&bytes), Ok(basis));
         for position in [30, bytes.len() / 2, bytes.len() - 1] {
@@ -247,22 +239,15 @@ mod tests {
     #[test]
     fn key_depends_on_what_the_basis_depends_on_and_nothing_else() {
         let base = small();
-        let mut same = base.clone();
-        same.vehicle.mass = 1e4;
-        same.wheel.hub_inertia = 3.0;
-        same.friction.coefficient = 0.1;
-        same.tuning.max_step = 1e-5;
-        same.physics.centrifugal = false;
-        (same.model.nominal_load, same.model.contact_width) = (2e5, 2.0);
-        assert_eq!(key(&base), key(&same));
-        let changes: [fn(&mut Config); 7] = [
-            |c| c.mesh.reach = 0.1,
-            |c| c.wheel.profile = "flat(length = 0.1)".into(),
-            |c| c.wheel.hub_radius = 0.06,
+        let damping = [BodyDamping::even(0.1); 2];
+        assert_eq!(key(&base), key(&BodyParameters { damping, centrifugal: false, ..base.clone() }));
+        let changes: [fn(&mut BodyParameters); 6] = [
+            |c| c.reach = 0.1,
+            |c| c.hub_radius = 0.06,
             |c| c.material.density = 7800.0,
-            |c| c.model.nominal_load = 1.1e5,
-            |c| c.mesh.elements_per_half_width = 5,
-            |c| c.solver.modes_rail = 6,
+            |c| c.half_width *= 1.1,
+            |c| c.elements = 5,
+            |c| c.modes[1] = 6,
         ];
         for change in changes {
             let mut other = base.clone();
@@ -273,11 +258,11 @@ mod tests {
 
     #[test]
     fn a_basis_fits_its_own_configuration_only() {
-        let config = small();
-        let mut other = config.clone();
-        other.solver.modes_wheel = 4;
+        let small = small();
+        let mut other = small.clone();
+        other.modes[0] = 4;
         let basis = Basis::compute(&other, &mut |_, _| {}).unwrap();
-        assert!(basis.fits(&other) && !basis.fits(&config));
+        assert!(basis.fits(&other) && !basis.fits(&small));
         let pair = bodies(&other, Some(basis), &mut |_, _| {}).unwrap();
         assert_eq!((pair.wheel.state_len(), pair.rail.state_len()), (4, 5));
         // 34 elements, wings included, with three cells between contact nodes each.
@@ -286,41 +271,17 @@ mod tests {
 
     #[test]
     fn production_mesh_is_small_enough_and_has_the_torsion_frequency_of_the_annulus() {
-        let config = paper_d(20);
+        let bodies = paper_d(20);
         let unknowns = |mesh: crate::fem::Mesh| 2 * (mesh.nodes.len() - mesh.fixed.len());
-        let dofs = unknowns(wheel_mesh(&config).unwrap()) + unknowns(rail_mesh(&config).unwrap());
+        let dofs = unknowns(wheel_mesh(&bodies).unwrap()) + unknowns(rail_mesh(&bodies).unwrap());
         assert!(dofs < 70_000, "{dofs} unknowns");
-        let basis = Basis::compute(&config, &mut |_, _| {}).unwrap();
+        let basis = Basis::compute(&bodies, &mut |_, _| {}).unwrap();
         let size = basis.to_bytes().unwrap().len();
         assert!(size < 1_500_000, "{size} bytes");
         let mode = basis.wheel.rigid.column(crate::axes::Axis::Rotation.number()).iamax();
         let omega = basis.wheel.squared_frequencies[mode].sqrt();
-        let exact = exact_torsion(&config).frequency;
+        let exact = exact_torsion(&bodies).frequency;
         println!("figure: torsion.frequency [rad/s] = {exact:.1}, {omega:.1} ± 0.001");
         assert!((omega / exact - 1.0).abs() < 1e-3, "{omega} rad/s instead of {exact}");
-    }
-
-    #[test]
-    fn bodies_of_extreme_but_valid_configurations_can_be_meshed() {
-        let changes: [fn(&mut Config); 6] = [
-            |c| c.model.nominal_load = 10.0,
-            |c| c.mesh.elements_per_half_width = 80,
-            |c| c.wheel.hub_radius = 0.4,
-            |c| (c.wheel.hub_radius, c.rail.height, c.rail.length) = (0.01, 0.02, 0.12),
-            |c| (c.model.nominal_load, c.wheel.radius) = (4.7e6, 0.46),
-            |c| (c.rail.length, c.rail.height) = (2.0, 2.0),
-        ];
-        for change in changes {
-            let mut config = paper_d(10);
-            change(&mut config);
-            assert_eq!(config.validate(), Ok(()));
-            let mut dofs = Vec::new();
-            for mesh in [wheel_mesh(&config).unwrap(), rail_mesh(&config).unwrap()] {
-                assert!((0..mesh.cells.len()).all(|c| crate::fem::element::points(&mesh.corners(c)).is_ok()));
-                dofs.push(2 * (mesh.nodes.len() - mesh.fixed.len()));
-            }
-            assert!(dofs.iter().all(|n| *n < 200_000));
-            println!("{dofs:?} dofs, a = {:.2e} m", nominal_half_width(&config));
-        }
     }
 }

@@ -1,9 +1,8 @@
 //! How large the finite-element model of a body may become, checked before any memory is taken.
 
-use super::damping::BodyDamping;
 use super::error::MechanicsError;
-use super::layout::{largest_rail_cell, nominal_half_width, winged_zone};
-use crate::config::Config;
+use super::parameters::BodyParameters;
+use crate::display::display_number;
 use crate::fem::{ContactZone, FemError, graded};
 
 /// Largest number of unknown displacements of one body. With 80 and 40 modes, bodies of 84,480 and 48,762 unknowns (60
@@ -16,24 +15,24 @@ pub const LARGEST_KRYLOV: f64 = 0.8e9;
 
 /// Fine zone of the meshes for the nominal load, with wings for wider patches where the bodies have room for them and
 /// do not become too large by them.
-pub fn contact_zone(config: &Config) -> ContactZone {
-    let winged = winged_zone(config);
-    if check(config, winged).is_ok() { winged } else { ContactZone { reach: 0.0, ..winged } }
+pub fn contact_zone(c: &BodyParameters) -> ContactZone {
+    let winged = c.winged_zone();
+    if check(c, winged).is_ok() { winged } else { ContactZone { reach: 0.0, ..winged } }
 }
 
-/// Refuses a configuration whose meshes or vibration modes need more memory and time than is sensible; the error names
+/// Refuses parameters whose meshes or vibration modes need more memory and time than is sensible; the error names
 /// the parameters that drive the size.
-pub fn check_size(config: &Config) -> Result<(), MechanicsError> {
-    check(config, contact_zone(config))
+pub fn check_size(c: &BodyParameters) -> Result<(), MechanicsError> {
+    check(c, contact_zone(c))
 }
 
 /// Refuses bodies with a given fine zone that are too large.
-fn check(config: &Config, zone: ContactZone) -> Result<(), MechanicsError> {
-    let damped = [BodyDamping::wheel(config), BodyDamping::rail(config)].iter().any(|damping| !damping.is_none());
-    let with_modes = config.solver.response.is_reduced() || damped;
+fn check(c: &BodyParameters, zone: ContactZone) -> Result<(), MechanicsError> {
+    let damped = c.damping.iter().any(|damping| !damping.is_none());
+    let with_modes = c.reduced || damped;
     let check = |body, unknowns: f64, modes: usize| {
         if unknowns > LARGEST_UNKNOWNS {
-            return Err(MechanicsError::TooLarge { body, unknowns, limit: LARGEST_UNKNOWNS, causes: causes(config) });
+            return Err(MechanicsError::TooLarge { body, unknowns, limit: LARGEST_UNKNOWNS, causes: causes(c) });
         }
         let memory = 8.0 * unknowns * crate::linalg::modes::usual_space(modes) as f64;
         if with_modes && memory > LARGEST_KRYLOV {
@@ -41,27 +40,27 @@ fn check(config: &Config, zone: ContactZone) -> Result<(), MechanicsError> {
         }
         Ok(())
     };
-    check("wheel", wheel_unknowns(config, zone)?, config.solver.modes_wheel)?;
-    check("rail", rail_unknowns(config, zone)?, config.solver.modes_rail)
+    check("wheel", wheel_unknowns(c, zone)?, c.modes[0])?;
+    check("rail", rail_unknowns(c, zone)?, c.modes[1])
 }
 
 /// Values of the parameters from which the number of unknowns follows.
-fn causes(config: &Config) -> String {
-    let half_width = nominal_half_width(config);
-    config.told(&format!(
-        "cells grow from the half-width of the nominal contact, {half_width:.3e} m, over {{mesh.elements_per_half_width}} \
-         to 1/20 of {{wheel.radius}}, or 1/150 of a longer rail, and fill {{rail.length}} times {{rail.height}}"
-    ))
+fn causes(c: &BodyParameters) -> String {
+    let [radius, length, height] = [c.radius, c.rail_length, c.rail_height].map(display_number);
+    format!(
+        "cells grow from the half-width of the nominal contact, {:.3e} m, over mesh.elements_per_half_width = {} to 1/20 of \
+         wheel.radius = {radius} m, or 1/150 of a longer rail, and fill rail.length = {length} m times rail.height = {height} m",
+        c.half_width, c.elements
+    )
 }
 
-fn wheel_unknowns(config: &Config, zone: ContactZone) -> Result<f64, MechanicsError> {
-    let unknowns = graded::wheel_unknowns(config.wheel.radius, config.wheel.hub_radius, zone);
+fn wheel_unknowns(c: &BodyParameters, zone: ContactZone) -> Result<f64, MechanicsError> {
+    let unknowns = graded::wheel_unknowns(c.radius, c.hub_radius, zone);
     unknowns.map_err(|source| unmeshable("wheel", source))
 }
 
-fn rail_unknowns(config: &Config, zone: ContactZone) -> Result<f64, MechanicsError> {
-    let rail = &config.rail;
-    let unknowns = graded::rail_unknowns(rail.length, rail.height, largest_rail_cell(config), zone);
+fn rail_unknowns(c: &BodyParameters, zone: ContactZone) -> Result<f64, MechanicsError> {
+    let unknowns = graded::rail_unknowns(c.rail_length, c.rail_height, c.largest_rail_cell(), zone);
     unknowns.map_err(|source| unmeshable("rail", source))
 }
 
@@ -85,28 +84,25 @@ pub(super) fn unmeshable(body: &'static str, source: FemError) -> MechanicsError
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::Response;
-    use crate::mechanics::testing::paper_d;
-    use crate::mechanics::{Basis, bodies, rail_mesh, wheel_mesh};
+    use crate::mechanics::testing::{half_width, paper_d};
+    use crate::mechanics::{Basis, pair, rail_mesh, wheel_mesh};
 
-    /// Valid parameters whose rail would have more cells than is sensible.
-    fn far_too_large() -> Config {
-        let mut config = paper_d(80);
-        (config.wheel.radius, config.wheel.hub_radius) = (0.1, 0.01);
-        (config.rail.length, config.rail.height) = (2.0, 2.0);
-        (config.model.nominal_load, config.model.contact_width) = (100.0, 1.0);
-        config
+    /// Parameters whose rail would have more cells than is sensible.
+    fn far_too_large() -> BodyParameters {
+        let mut bodies = paper_d(80);
+        (bodies.radius, bodies.hub_radius, bodies.rail_length, bodies.rail_height) = (0.1, 0.01, 2.0, 2.0);
+        bodies.half_width = half_width(&bodies, 100.0);
+        bodies
     }
 
     #[test]
     fn meshes_beyond_the_limit_are_refused_by_name_before_anything_is_computed() {
-        let config = far_too_large();
-        assert_eq!(config.validate(), Ok(()));
+        let bodies = far_too_large();
         let errors = [
-            check_size(&config).unwrap_err(),
-            Basis::compute(&config, &mut |_, share| assert!(share == 0.0)).unwrap_err(),
-            bodies(&config, None, &mut |_, share| assert!(share == 0.0)).err().unwrap(),
-            rail_mesh(&config).unwrap_err(),
+            check_size(&bodies).unwrap_err(),
+            Basis::compute(&bodies, &mut |_, share| assert!(share == 0.0)).unwrap_err(),
+            pair::bodies(&bodies, None, &mut |_, share| assert!(share == 0.0)).err().unwrap(),
+            rail_mesh(&bodies).unwrap_err(),
         ];
         for error in errors {
             let MechanicsError::TooLarge { body: "rail", unknowns, .. } = error else { panic!("{error}") };
@@ -120,38 +116,39 @@ mod tests {
     /// Rail without wings smaller than allowed, with them larger.
     #[test]
     fn wings_are_left_out_where_they_would_make_a_body_too_large() {
-        let mut config = far_too_large();
-        let sizes = |config: &Config| {
-            let winged = winged_zone(config);
-            [ContactZone { reach: 0.0, ..winged }, winged].map(|zone| rail_unknowns(config, zone).unwrap())
+        let mut bodies = far_too_large();
+        let sizes = |c: &BodyParameters| {
+            let winged = c.winged_zone();
+            [ContactZone { reach: 0.0, ..winged }, winged].map(|zone| rail_unknowns(c, zone).unwrap())
         };
-        let [mut plain, mut winged] = sizes(&config);
+        let [mut plain, mut winged] = sizes(&bodies);
         while plain > LARGEST_UNKNOWNS {
-            config.rail.height -= 0.01;
-            [plain, winged] = sizes(&config);
+            bodies.rail_height -= 0.01;
+            [plain, winged] = sizes(&bodies);
         }
         println!("{plain} unknowns without wings, {winged} with them");
         assert!(winged > LARGEST_UNKNOWNS);
-        assert_eq!((check_size(&config), contact_zone(&config).wing_nodes()), (Ok(()), 0));
-        config.mesh.elements_per_half_width = 40;
-        assert!(check_size(&config).is_ok() && contact_zone(&config).wing_nodes() > 0);
+        assert_eq!((check_size(&bodies), contact_zone(&bodies).wing_nodes()), (Ok(()), 0));
+        bodies.elements = 40;
+        assert!(check_size(&bodies).is_ok() && contact_zone(&bodies).wing_nodes() > 0);
     }
 
     #[test]
     fn more_modes_than_memory_are_refused_by_name() {
-        let mut config = paper_d(60);
-        config.solver.modes_wheel = 200;
-        let error = check_size(&config).unwrap_err();
+        let mut bodies = paper_d(60);
+        bodies.modes[0] = 200;
+        let error = check_size(&bodies).unwrap_err();
         assert!(matches!(error, MechanicsError::TooManyModes { body: "wheel", .. }), "{error}");
-        config.solver.response = Response::Full;
-        assert_eq!(check_size(&config), Ok(()));
+        bodies.reduced = false;
+        assert_eq!(check_size(&bodies), Ok(()));
     }
 
     #[test]
     fn contact_zones_that_do_not_fit_are_refused_by_name() {
-        let mut config = paper_d(8);
-        config.material.youngs_modulus = 1e7;
-        for error in [wheel_mesh(&config).unwrap_err(), rail_mesh(&config).unwrap_err()] {
+        let mut bodies = paper_d(8);
+        bodies.material.youngs_modulus = 1e7;
+        bodies.half_width = half_width(&bodies, 1e5);
+        for error in [wheel_mesh(&bodies).unwrap_err(), rail_mesh(&bodies).unwrap_err()] {
             assert!(error.to_string().contains("lower model.nominal_load"), "{error}");
         }
     }

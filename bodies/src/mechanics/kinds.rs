@@ -83,8 +83,8 @@ mod tests {
     /// Products with halves of the matrices of both bodies are those with the whole ones, and each kind is a real part.
     #[test]
     fn halves_of_the_matrices_of_the_stream_act_as_the_whole_ones() {
-        let config = paper_d(4);
-        for system in [wheel_system(&config).unwrap(), rail_system(&config).unwrap()] {
+        let bodies = paper_d(4);
+        for system in [wheel_system(&bodies).unwrap(), rail_system(&bodies).unwrap()] {
             let sorted = ReducedBasis::compute(&system, 21, &mut |_| {}).unwrap();
             let (kinds, basis) = sorted.clone().by_kinds();
             assert!(kinds.first > 5 && kinds.first < 16 && sorted == basis, "{kinds:?}");

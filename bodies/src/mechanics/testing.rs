@@ -1,26 +1,54 @@
-//! Configurations and small meshes for the tests.
+//! Bodies and small meshes for the tests.
 
 use crate::analytic::{self, Torsion};
 use crate::axes::PerAxis;
-use crate::config::{Config, presets};
 use crate::fem::Mesh;
 use crate::material::Isotropic;
-use crate::mechanics::{BodyResponse, BodyState, Convection, FreeResponse, StepOperator};
+use crate::mechanics::{
+    BodyDamping, BodyParameters, BodyResponse, BodyState, Convection, Ends, FreeResponse, StepOperator,
+};
 use crate::multistep::TimeDerivative;
 use nalgebra::DVector;
 use std::f64::consts::PI;
 
 /// The wheel and rail of Paper D with a choice of mesh.
-pub fn paper_d(elements: usize) -> Config {
-    let mut config = presets::parse(include_str!("../../resources/paper_d.json")).unwrap();
-    config.mesh.elements_per_half_width = elements;
-    config
+pub fn paper_d(elements: usize) -> BodyParameters {
+    let material = Isotropic {
+        youngs_modulus: 200e9,
+        poissons_ratio: 0.3,
+        density: 8000.0,
+        expansion: 4.8e-6,
+        conductivity: 45.0,
+        specific_heat: 460.0,
+    };
+    let mut bodies = BodyParameters {
+        radius: 0.5,
+        hub_radius: 0.05,
+        rail_length: 1.0,
+        rail_height: 0.1,
+        rail_ends: Ends::Free,
+        material,
+        half_width: 0.0,
+        reach: 0.0,
+        elements,
+        grid_elements: 10,
+        reduced: true,
+        modes: [80, 40],
+        damping: [BodyDamping::NONE; 2],
+        centrifugal: true,
+    };
+    bodies.half_width = half_width(&bodies, 1e5);
+    bodies
+}
+
+/// Half-width of the contact under a load [N/m] \[m].
+pub fn half_width(c: &BodyParameters, load: f64) -> f64 {
+    analytic::hertz_half_width(load, c.radius, c.material.contact_modulus())
 }
 
 /// Torsion of the wheel on its hub, of the circle and in the continuum.
-pub fn exact_torsion(config: &Config) -> Torsion {
-    let speed = Isotropic::from(&config.material).shear_wave_speed();
-    analytic::hub_torsion(config.wheel.radius, config.wheel.hub_radius, speed)
+pub fn exact_torsion(c: &BodyParameters) -> Torsion {
+    analytic::hub_torsion(c.radius, c.hub_radius, c.material.shear_wave_speed())
 }
 
 /// Unit square of `n × n` cells, inner nodes displaced by up to `distortion` cells, nothing fixed.

@@ -8,7 +8,6 @@
 use super::MechanicsError;
 use super::shapes::{Shapes, StaticPart};
 use super::system::BodySystem;
-use crate::config::Config;
 use crate::linalg::Parity;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -30,22 +29,21 @@ const MORE_DIAMETERS: usize = 3;
 
 impl BodyDamping {
     /// No damping at all.
-    pub const NONE: Self = Self { ratios: [0.0; GROUPS] };
+    pub const NONE: Self = Self::even(0.0);
 
-    /// Damping of the wheel.
-    pub fn wheel(config: &Config) -> Self {
-        let damping = &config.damping;
+    /// Damping ratios of the four kinds of modes: torsion, radial, of one and of more diameters \[1].
+    pub const fn of([torsion, radial, one_diameter, more_diameters]: [f64; GROUPS]) -> Self {
         let mut ratios = [0.0; GROUPS];
-        ratios[TORSION] = damping.wheel_torsion;
-        ratios[RADIAL] = damping.wheel_radial;
-        ratios[ONE_DIAMETER] = damping.wheel_one_diameter;
-        ratios[MORE_DIAMETERS] = damping.wheel_more_diameters;
+        ratios[TORSION] = torsion;
+        ratios[RADIAL] = radial;
+        ratios[ONE_DIAMETER] = one_diameter;
+        ratios[MORE_DIAMETERS] = more_diameters;
         Self { ratios }
     }
 
-    /// Damping of the rail.
-    pub fn rail(config: &Config) -> Self {
-        Self { ratios: [config.damping.rail; GROUPS] }
+    /// Damping of all modes by one ratio \[1].
+    pub const fn even(ratio: f64) -> Self {
+        Self { ratios: [ratio; GROUPS] }
     }
 
     /// True if nothing is damped.
@@ -145,8 +143,8 @@ mod tests {
     /// turns one into the other.
     #[test]
     fn modes_of_the_wheel_have_whole_numbers_of_diameters_and_come_in_pairs() {
-        let config = paper_d(8);
-        let basis = ReducedBasis::compute(&wheel_system(&config).unwrap(), 60, &mut |_| {}).unwrap();
+        let bodies = paper_d(8);
+        let basis = ReducedBasis::compute(&wheel_system(&bodies).unwrap(), 60, &mut |_| {}).unwrap();
         let ModeCharacter { transport, diameters, circumferential } = &basis.character;
         let deviation = diameters.iter().map(|n| (n - n.round()).abs()).fold(0.0, f64::max);
         println!("diameters {:.4?}, at most {deviation:.3} from whole", diameters.as_slice());
@@ -159,7 +157,7 @@ mod tests {
         let (torsion, radial, one) = (of_group(TORSION), of_group(RADIAL), of_group(ONE_DIAMETER));
         // The first of each, against the closed form or the participation in a rigid motion.
         let lowest = basis.squared_frequencies[torsion[0]].sqrt();
-        assert!((lowest / exact_torsion(&config).frequency - 1.0).abs() < 2e-3);
+        assert!((lowest / exact_torsion(&bodies).frequency - 1.0).abs() < 2e-3);
         assert_eq!(torsion[0], basis.rigid.column(Axis::Rotation.number()).iamax());
         assert!(circumferential[torsion[0]] > 0.999 && circumferential[radial[0]] < 1e-3);
         assert!(basis.rigid.row(radial[0]).amax() < 1e-3 * basis.rigid.amax());
@@ -198,8 +196,8 @@ mod tests {
     /// pair with one diameter make a wave that rests in the material; its decay is not that of the frame.
     #[test]
     fn single_modes_decay_with_their_ratio_standing_and_turning() {
-        let config = paper_d(6);
-        let system = wheel_system(&config).unwrap();
+        let bodies = paper_d(6);
+        let system = wheel_system(&bodies).unwrap();
         let basis = ReducedBasis::compute(&system, 24, &mut |_| {}).unwrap();
         let mut damping = BodyDamping::NONE;
         damping.ratios = [1e-2, 2e-3, 5e-3, 1e-3];
@@ -240,9 +238,9 @@ mod tests {
     /// dampings. In the rail the stream carries much of what the truncated modes hold, which only the full body knows.
     #[test]
     fn damped_reduced_and_full_bodies_answer_alike() {
-        let config = paper_d(5);
+        let bodies = paper_d(5);
         let damping = BodyDamping { ratios: [3e-2, 2e-2, 5e-2, 1e-2] };
-        for (system, carried) in [(wheel_system(&config).unwrap(), 2e-2), (rail_system(&config).unwrap(), 0.1)] {
+        for (system, carried) in [(wheel_system(&bodies).unwrap(), 2e-2), (rail_system(&bodies).unwrap(), 0.1)] {
             let basis = ReducedBasis::compute(&system, 40, &mut |_| {}).unwrap();
             let reduced = ReducedBody::new(basis, false, &damping);
             let full = FullBody::damped(system, false, &damping, 40).unwrap();
@@ -281,8 +279,8 @@ mod tests {
 
     #[test]
     fn statics_of_a_body_at_rest_are_not_damped() {
-        let config = paper_d(5);
-        let basis = ReducedBasis::compute(&rail_system(&config).unwrap(), 10, &mut |_| {}).unwrap();
+        let bodies = paper_d(5);
+        let basis = ReducedBasis::compute(&rail_system(&bodies).unwrap(), 10, &mut |_| {}).unwrap();
         let damping = BodyDamping { ratios: [0.1; GROUPS] };
         let [damped, plain] = [damping, BodyDamping::NONE].map(|d| ReducedBody::new(basis.clone(), false, &d));
         let (a, b) = (damped.operator(0.0).unwrap(), plain.operator(0.0).unwrap());

@@ -155,8 +155,8 @@ pub(super) fn column(a: &DMatrix<f64>, j: usize) -> &[f64] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::RailEnds;
     use crate::linalg::{Cholesky, CsrMatrix, lowest_modes};
+    use crate::mechanics::Ends;
     use crate::mechanics::testing::{committed, free, paper_d};
     use crate::mechanics::{BodyDamping, BodySystem, FullBody, ReducedBasis, ReducedBody};
     use crate::mechanics::{rail_system, wheel_system};
@@ -186,9 +186,9 @@ mod tests {
 
     /// Rail whose ends swallow plane waves.
     fn rail_with_quiet_ends() -> BodySystem {
-        let mut config = paper_d(4);
-        config.rail.ends = RailEnds::Nonreflecting;
-        rail_system(&config).unwrap()
+        let mut bodies = paper_d(4);
+        bodies.rail_ends = Ends::Nonreflecting;
+        rail_system(&bodies).unwrap()
     }
 
     /// Wheel with one dashpot between its hub and the middle of its surface.

@@ -1,25 +1,33 @@
 //! Constants that follow from the parameters of the material, each in one place.
 
 use crate::analytic::{self, HalfPlane};
-use crate::config::Material;
 
 /// An isotropic, linear elastic, heat-conducting material in plane strain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Isotropic {
-    youngs_modulus: f64,
-    poissons_ratio: f64,
-    density: f64,
-    expansion: f64,
-    conductivity: f64,
-    specific_heat: f64,
+    /// Young's modulus \[Pa].
+    pub youngs_modulus: f64,
+    /// Poisson's ratio \[1].
+    pub poissons_ratio: f64,
+    /// Density [kg/m³].
+    pub density: f64,
+    /// Coefficient of linear thermal expansion [1/K].
+    pub expansion: f64,
+    /// Thermal conductivity [W/(m K)].
+    pub conductivity: f64,
+    /// Specific heat [J/(kg K)].
+    pub specific_heat: f64,
 }
 
-impl From<&Material> for Isotropic {
-    fn from(material: &Material) -> Self {
-        let &Material { youngs_modulus, poissons_ratio, density, expansion, conductivity, specific_heat, .. } =
-            material;
-        Self { youngs_modulus, poissons_ratio, density, expansion, conductivity, specific_heat }
-    }
+/// Melting of steel, and the friction of its film.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeltingFilm {
+    /// Absolute temperature at which melting begins \[K].
+    pub solidus: f64,
+    /// Absolute temperature at which it is complete \[K].
+    pub liquidus: f64,
+    /// Share of the friction coefficient that a film of molten steel has at the liquidus \[1].
+    pub friction: f64,
 }
 
 impl Isotropic {
@@ -128,14 +136,14 @@ pub const SOFTENS: f64 = 400.0 + CELSIUS_ZERO;
 /// Share of the friction coefficient on a surface that may melt \[1], whose temperature is `rest` \[K] and the share
 /// times `heating` \[K].
 ///
-/// The share falls from 1 at the solidus to `material.film_friction` at the liquidus and to nothing [`FILM_GROWS`]
+/// The share falls from 1 at the solidus to that of the film at the liquidus and to nothing [`FILM_GROWS`]
 /// above it, linear between; what is returned is the one that belongs to its own temperature. Molten steel of the
 /// asperities and then of a whole film is sheared instead of solid steel. With its viscosity of about 6 mPa s
 /// (literature), a film of 1 µm and 20 m/s carry 0.1 MPa, less than a thousandth of the contact pressure: what remains
 /// is a small number, and its size is judgement. A film that gets hotter melts more steel and thickens until its own
 /// friction no longer heats it.
-pub fn melted_share(heating: f64, rest: f64, material: &Material) -> f64 {
-    let &Material { solidus, liquidus, film_friction, .. } = material;
+pub fn melted_share(heating: f64, rest: f64, film: &MeltingFilm) -> f64 {
+    let &MeltingFilm { solidus, liquidus, friction: film_friction } = film;
     let heating = heating.max(0.0);
     let fall = (1.0 - film_friction) / (liquidus - solidus);
     let share = (1.0 + fall * (solidus - rest)) / (1.0 + fall * heating);
@@ -166,17 +174,17 @@ mod tests {
 
     #[test]
     fn friction_falls_to_that_of_a_film_at_the_liquidus_and_to_nothing_above_it() {
-        let material = Material { solidus: 1700.0, liquidus: 1800.0, film_friction: 0.1, ..Material::default() };
+        let film = MeltingFilm { solidus: 1700.0, liquidus: 1800.0, friction: 0.1 };
         for heating in [0.0, 1300.0, 1400.0, 1420.0, 2000.0, 1e4, 1.51e4, 1e5, 1e6] {
-            let share = melted_share(heating, 300.0, &material);
+            let share = melted_share(heating, 300.0, &film);
             let temperature = 300.0 + share * heating;
             let molten = ((temperature - 1700.0) / 100.0).clamp(0.0, 1.0);
             let carried = 1.0 - ((temperature - 1800.0) / FILM_GROWS).clamp(0.0, 1.0);
             assert!((share - (1.0 - 0.9 * molten) * carried).abs() < 1e-12, "{heating}: {share}");
         }
-        assert_eq!(melted_share(1400.0, 300.0, &material), 1.0);
-        assert_eq!(melted_share(100.0, 1841.0, &material), 0.0, "hotter than any film without friction");
-        let alone = Material { film_friction: 1.0, ..material };
+        assert_eq!(melted_share(1400.0, 300.0, &film), 1.0);
+        assert_eq!(melted_share(100.0, 1841.0, &film), 0.0, "hotter than any film without friction");
+        let alone = MeltingFilm { friction: 1.0, ..film };
         assert_eq!(melted_share(1e6, 300.0, &alone), 1.0);
     }
 

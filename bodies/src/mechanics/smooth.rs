@@ -131,9 +131,7 @@ fn rows_between(between: &DMatrix<f64>, rows: &DMatrix<f64>) -> DMatrix<f64> {
 mod tests {
     use super::*;
     use crate::axes::PerAxis;
-    use crate::config::presets;
-    use crate::material::Isotropic;
-    use crate::mechanics::testing::{committed, free, paper_d};
+    use crate::mechanics::testing::{committed, free, half_width, paper_d};
     use crate::mechanics::{
         BodyDamping, BodyResponse, BodyState, Convection, FullBody, ReducedBody, contact_zone, rail_system,
         wheel_system,
@@ -143,13 +141,15 @@ mod tests {
     /// The compliance of the mesh between all nodes far apart is that of the half-plane and the polynomial together.
     #[test]
     fn half_plane_and_polynomial_are_the_body_over_the_whole_zone() {
-        let railway = presets::parse(include_str!("../../resources/railway.json")).unwrap();
-        for (name, config) in [("paper_d", paper_d(10)), ("railway", railway)] {
-            let (steel, x) = (Isotropic::from(&config.material), contact_zone(&config).surface_x());
+        let mut railway = paper_d(10);
+        (railway.radius, railway.hub_radius, railway.material.youngs_modulus) = (0.46, 0.046, 210e9);
+        railway.half_width = half_width(&railway, 1e5 / 0.014);
+        for (name, bodies) in [("paper_d", paper_d(10)), ("railway", railway)] {
+            let (steel, x) = (bodies.material, contact_zone(&bodies).surface_x());
             let half_plane = steel.half_plane();
             assert!((half_plane.kernel * std::f64::consts::PI * steel.contact_modulus() - 1.0).abs() < 1e-14);
             let ports = SmoothPorts::new(&x).unwrap();
-            for (system, side) in [(wheel_system(&config).unwrap(), 1.0), (rail_system(&config).unwrap(), -1.0)] {
+            for (system, side) in [(wheel_system(&bodies).unwrap(), 1.0), (rail_system(&bodies).unwrap(), -1.0)] {
                 let body = ReducedBasis::compute(&system, 6, &mut |_| {}).unwrap();
                 let (exact, rest) = (body.compliance(), body.smooth(&ports, half_plane, side).compliance());
                 let mut worst = [0.0_f64; 4];
@@ -179,11 +179,11 @@ mod tests {
     }
 
     fn twice(damping: &BodyDamping) -> [Twice; 2] {
-        let config = paper_d(5);
-        let half_plane = Isotropic::from(&config.material).half_plane();
-        let systems = [(wheel_system(&config).unwrap(), 1.0), (rail_system(&config).unwrap(), -1.0)];
+        let bodies = paper_d(5);
+        let half_plane = bodies.material.half_plane();
+        let systems = [(wheel_system(&bodies).unwrap(), 1.0), (rail_system(&bodies).unwrap(), -1.0)];
         systems.map(|(system, side)| {
-            let ports = SmoothPorts::new(&contact_zone(&config).surface_x()).unwrap();
+            let ports = SmoothPorts::new(&contact_zone(&bodies).surface_x()).unwrap();
             let basis = ReducedBasis::compute(&system, 40, &mut |_| {}).unwrap();
             let (smooth, turns) = (basis.smooth(&ports, half_plane, side), side > 0.0);
             let reduced = [basis, smooth].map(|basis| ReducedBody::new(basis, turns, damping));

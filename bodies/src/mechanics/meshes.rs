@@ -1,46 +1,44 @@
-//! Meshes and finite-element matrices of both bodies for a configuration.
+//! Meshes and finite-element matrices of both bodies of the parameters.
 
 use super::ale::Stream;
 use super::error::MechanicsError;
-use super::layout::largest_rail_cell;
+use super::parameters::{BodyParameters, Ends};
 use super::size::{check_size, contact_zone, unmeshable};
 use super::system::BodySystem;
-use crate::config::{Config, RailEnds};
 use crate::fem::{Mesh, graded};
 
 /// Mesh of the wheel; an error that names parameters if it were too large, see [`check_size`].
-pub fn wheel_mesh(config: &Config) -> Result<Mesh, MechanicsError> {
-    check_size(config)?;
-    let mesh = graded::wheel(config.wheel.radius, config.wheel.hub_radius, contact_zone(config));
+pub fn wheel_mesh(c: &BodyParameters) -> Result<Mesh, MechanicsError> {
+    check_size(c)?;
+    let mesh = graded::wheel(c.radius, c.hub_radius, contact_zone(c));
     mesh.map_err(|source| unmeshable("wheel", source))
 }
 
 /// Mesh of the rail; an error that names parameters if it were too large, see [`check_size`].
-pub fn rail_mesh(config: &Config) -> Result<Mesh, MechanicsError> {
-    check_size(config)?;
-    let rail = &config.rail;
-    let mesh = graded::rail(rail.length, rail.height, largest_rail_cell(config), contact_zone(config));
+pub fn rail_mesh(c: &BodyParameters) -> Result<Mesh, MechanicsError> {
+    check_size(c)?;
+    let mesh = graded::rail(c.rail_length, c.rail_height, c.largest_rail_cell(), contact_zone(c));
     let mut mesh = mesh.map_err(|source| unmeshable("rail", source))?;
-    match rail.ends {
-        RailEnds::Fixed => mesh.fix_ends(),
-        RailEnds::Free | RailEnds::Nonreflecting => {}
+    match c.rail_ends {
+        Ends::Fixed => mesh.fix_ends(),
+        Ends::Free | Ends::Nonreflecting => {}
     }
     Ok(mesh)
 }
 
 /// Finite-element matrices of the wheel.
-pub fn wheel_system(config: &Config) -> Result<BodySystem, MechanicsError> {
-    Ok(BodySystem::assemble(&wheel_mesh(config)?, &config.material, Stream::Rotation)?)
+pub fn wheel_system(c: &BodyParameters) -> Result<BodySystem, MechanicsError> {
+    Ok(BodySystem::assemble(&wheel_mesh(c)?, &c.material, Stream::Rotation)?)
 }
 
 /// Finite-element matrices of the rail.
-pub fn rail_system(config: &Config) -> Result<BodySystem, MechanicsError> {
-    let (mesh, material, stream) = (rail_mesh(config)?, &config.material, Stream::Translation);
+pub fn rail_system(c: &BodyParameters) -> Result<BodySystem, MechanicsError> {
+    let (mesh, material, stream) = (rail_mesh(c)?, &c.material, Stream::Translation);
     let system = BodySystem::assemble(&mesh, material, stream)?;
-    Ok(match config.rail.ends {
-        RailEnds::Fixed => system,
-        RailEnds::Free => system.with_free_ends(&mesh, material, stream)?,
-        RailEnds::Nonreflecting => system.with_quiet_ends(&mesh, material, stream)?,
+    Ok(match c.rail_ends {
+        Ends::Fixed => system,
+        Ends::Free => system.with_free_ends(&mesh, material, stream)?,
+        Ends::Nonreflecting => system.with_quiet_ends(&mesh, material, stream)?,
     })
 }
 
@@ -57,9 +55,9 @@ mod tests {
     #[test]
     fn modes_of_long_low_rails_are_found_although_they_crowd() {
         for (length, height) in [(0.12, 2.0), (5.0, 0.1), (20.0, 0.02), (100.0, 0.02)] {
-            let mut config = paper_d(4);
-            (config.rail.length, config.rail.height) = (length, height);
-            let BodySystem { stiffness, mass, .. } = rail_system(&config).unwrap();
+            let mut bodies = paper_d(4);
+            (bodies.rail_length, bodies.rail_height) = (length, height);
+            let BodySystem { stiffness, mass, .. } = rail_system(&bodies).unwrap();
             let factor = Cholesky::new(&stiffness).unwrap();
             let [one, twenty, forty] =
                 [1, 20, 40].map(|count| lowest_modes(&factor, &mass, count, &mut |_| {}).unwrap());
@@ -86,9 +84,9 @@ mod tests {
     fn any_number_of_modes_is_found_for_rails_of_any_size() {
         for (length, height) in [(0.12, 0.02), (0.12, 2.0), (2.0, 2.0), (20.0, 0.02), (100.0, 0.02), (100.0, 2.0)] {
             for count in [1, 20, 80, 200] {
-                let mut config = paper_d(4);
-                (config.rail.length, config.rail.height) = (length, height);
-                let system = rail_system(&config).unwrap();
+                let mut bodies = paper_d(4);
+                (bodies.rail_length, bodies.rail_height) = (length, height);
+                let system = rail_system(&bodies).unwrap();
                 let factor = Cholesky::new(&system.stiffness).unwrap();
                 let start = std::time::Instant::now();
                 let modes = lowest_modes(&factor, &system.mass, count, &mut |_| {});

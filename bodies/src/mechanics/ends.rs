@@ -7,7 +7,6 @@
 
 use super::ale::Stream;
 use super::system::BodySystem;
-use crate::config::Material;
 use crate::fem::assembly::{ElementMatrix, both_components};
 use crate::fem::element::EdgePoint;
 use crate::fem::{DofMap, FemError, Mesh, assemble_faces};
@@ -16,7 +15,7 @@ use crate::material::Isotropic;
 
 impl BodySystem {
     /// This body with free ends through which the material streams in and out.
-    pub fn with_free_ends(self, mesh: &Mesh, material: &Material, stream: Stream) -> Result<Self, FemError> {
+    pub fn with_free_ends(self, mesh: &Mesh, material: &Isotropic, stream: Stream) -> Result<Self, FemError> {
         let ends = assemble_faces(mesh, &DofMap::new(mesh), |p| stream.outflow(p, material.density))?;
         Ok(Self { ale_inertia: CsrMatrix::combination(1.0, &self.ale_inertia, -1.0, &ends)?, ..self })
     }
@@ -26,9 +25,9 @@ impl BodySystem {
     ///
     /// The dashpots hold `ρ c`. The symmetric half of the gyroscopic matrix, which acts on the ends alone, would cancel
     /// the part `± ρ V`; it is left out there.
-    pub fn with_quiet_ends(self, mesh: &Mesh, material: &Material, stream: Stream) -> Result<Self, FemError> {
-        let (isotropic, density, dofs) = (Isotropic::from(material), material.density, DofMap::new(mesh));
-        let impedance = [isotropic.pressure_wave_speed(), isotropic.shear_wave_speed()].map(|speed| density * speed);
+    pub fn with_quiet_ends(self, mesh: &Mesh, material: &Isotropic, stream: Stream) -> Result<Self, FemError> {
+        let (density, dofs) = (material.density, DofMap::new(mesh));
+        let impedance = [material.pressure_wave_speed(), material.shear_wave_speed()].map(|speed| density * speed);
         let damping = assemble_faces(mesh, &dofs, |p| dashpots(p, impedance))?;
         let carried = assemble_faces(mesh, &dofs, |p| through(p, stream, density))?;
         let gyroscopic = CsrMatrix::combination(1.0, &self.gyroscopic, -0.5, &carried)?;

@@ -229,8 +229,8 @@ mod tests {
 
     /// Wheel and rail, each reduced to `modes` and full.
     fn pairs(modes: usize) -> [(ReducedBody, FullBody); 2] {
-        let config = paper_d(5);
-        [(wheel_system(&config).unwrap(), true), (rail_system(&config).unwrap(), false)].map(|(system, centrifugal)| {
+        let bodies = paper_d(5);
+        [(wheel_system(&bodies).unwrap(), true), (rail_system(&bodies).unwrap(), false)].map(|(system, centrifugal)| {
             let basis = ReducedBasis::compute(&system, modes, &mut |_| {}).unwrap();
             (ReducedBody::new(basis, centrifugal, &BodyDamping::NONE), FullBody::new(system, centrifugal).unwrap())
         })

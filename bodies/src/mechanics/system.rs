@@ -3,10 +3,10 @@
 use super::ale::Stream;
 use super::elasticity::{self, Lame};
 use crate::axes::PerAxis;
-use crate::config::Material;
 use crate::fem::{AssemblyPattern, DofMap, FemError, Mesh, assemble_vector};
 use crate::linalg::dense::symmetrise;
 use crate::linalg::{Cholesky, CsrMatrix, ParityPart, Reflection, join};
+use crate::material::Isotropic;
 use nalgebra::{DMatrix, DVector};
 
 /// Matrices of one body on its free degrees of freedom, per metre of width.
@@ -42,7 +42,7 @@ pub struct BodySystem {
 
 impl BodySystem {
     /// Integrates all matrices of a body whose material streams as `stream`, without those of its [ends](super::ends).
-    pub fn assemble(mesh: &Mesh, material: &Material, stream: Stream) -> Result<Self, FemError> {
+    pub fn assemble(mesh: &Mesh, material: &Isotropic, stream: Stream) -> Result<Self, FemError> {
         let dofs = DofMap::new(mesh);
         let pattern = AssemblyPattern::new(mesh, &dofs)?;
         let (lame, density) = (Lame::from(material), material.density);
@@ -150,14 +150,13 @@ fn reflection(mesh: &Mesh, dofs: &DofMap) -> Option<Reflection> {
 mod tests {
     use crate::fem::{DofMap, assemble_vector};
     use crate::linalg::{Cholesky, lowest_modes};
-    use crate::material::Isotropic;
     use crate::mechanics::elasticity::mass;
     use crate::mechanics::testing::{annulus, exact_torsion, paper_d};
     use crate::mechanics::*;
 
     #[test]
     fn mass_and_inertia_of_the_wheel_converge_to_the_circle_with_order_two() {
-        let config = paper_d(4);
+        let bodies = paper_d(4);
         let error = |around: usize| -> [f64; 2] {
             let mesh = annulus(0.5, 0.05, around, 4);
             let dofs = DofMap::new(&mesh);
@@ -171,8 +170,8 @@ mod tests {
                     .sum()
             };
             [
-                product(|_| [1.0, 0.0]) / wheel_mass(&config) - 1.0,
-                product(|[x, y]| [y, -x]) / wheel_inertia(&config) - 1.0,
+                product(|_| [1.0, 0.0]) / bodies.wheel_mass() - 1.0,
+                product(|[x, y]| [y, -x]) / bodies.wheel_inertia() - 1.0,
             ]
         };
         let (coarse, fine) = (error(24), error(48));
@@ -191,7 +190,7 @@ mod tests {
         let omega = modes.squared_frequencies[participation.iamax()].sqrt();
         let exact = exact_torsion(&paper_d(8));
         assert!((omega / exact.frequency - 1.0).abs() < 1e-3, "{omega} rad/s, {exact:?}");
-        let share = participation.amax().powi(2) / wheel_inertia(&paper_d(8));
+        let share = participation.amax().powi(2) / paper_d(8).wheel_inertia();
         assert!((share - exact.inertia_share).abs() < 2e-3, "{share}, {exact:?}");
     }
 
@@ -229,12 +228,12 @@ mod tests {
     /// `s_k = G_{j+k} − G_{j+k+1}` of both bodies against the half-plane's `2/(πE*)/(k + ½)`, `1/E* = 2 (1 − ν²)/E`.
     #[test]
     fn surface_kernel_follows_the_half_plane_beyond_the_grid_scale() {
-        let config = paper_d(20);
-        let modulus = Isotropic::from(&config.material).contact_modulus();
-        let zone = contact_zone(&config);
+        let bodies = paper_d(20);
+        let modulus = bodies.material.contact_modulus();
+        let zone = contact_zone(&bodies);
         let (nodes, middle) = (zone.surface_nodes(), zone.surface_nodes() / 2);
         let mut sum = nalgebra::DMatrix::<f64>::zeros(2 * nodes, 2 * nodes);
-        for system in [wheel_system(&config).unwrap(), rail_system(&config).unwrap()] {
+        for system in [wheel_system(&bodies).unwrap(), rail_system(&bodies).unwrap()] {
             sum += system.surface_compliance(&Cholesky::new(&system.stiffness).unwrap());
         }
         for component in [0, 1] {
@@ -251,16 +250,16 @@ mod tests {
     /// Frictionless contact by active set on the paired nodes: half-width and peak pressure of Hertz.
     #[test]
     fn pressed_bodies_give_the_hertzian_half_width_and_pressure() {
-        let config = paper_d(10);
-        let (h, a) = (contact_zone(&config).spacing(), nominal_half_width(&config));
+        let bodies = paper_d(10);
+        let (h, a) = (contact_zone(&bodies).spacing(), bodies.half_width);
         let mut g = nalgebra::DMatrix::<f64>::zeros(0, 0);
-        for system in [wheel_system(&config).unwrap(), rail_system(&config).unwrap()] {
+        for system in [wheel_system(&bodies).unwrap(), rail_system(&bodies).unwrap()] {
             let full = system.surface_compliance(&Cholesky::new(&system.stiffness).unwrap());
             let n = full.nrows() / 2;
             let normal = nalgebra::DMatrix::from_fn(n, n, |i, j| full[(2 * i + 1, 2 * j + 1)]);
             g = if g.is_empty() { normal } else { g + normal };
         }
-        let x = contact_zone(&config).surface_x();
+        let x = contact_zone(&bodies).surface_x();
         let gap = |i: usize| 0.5 - (0.25 - x[i] * x[i]).sqrt();
         let mut active: Vec<usize> = (0..x.len()).filter(|&i| x[i].abs() < 1.2 * a).collect();
         let (mut force, mut approach) = (nalgebra::DVector::zeros(0), 0.0);
