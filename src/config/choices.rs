@@ -88,6 +88,8 @@ questions! {
     StartTemperature: is_stationary { Stationary => true, Uniform => false }
     /// Wear changes the profiles.
     Wear: is_on { TGamma => true, Off => false }
+    /// The hub has the reference temperature.
+    Hub: is_held { Fixed => true, Insulated => false }
     /// Bodies are reduced to vibration modes, which a stored basis holds.
     Response: is_reduced { Reduced => true, Full => false }
     /// The patch is as wide as the bodies, and has one line.

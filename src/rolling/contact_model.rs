@@ -37,7 +37,7 @@ pub struct ContactModel {
     /// Flexibility of the layer between the surfaces [m/Pa].
     layer: f64,
     /// Pressure at which cold steel yields [Pa]; infinite: never.
-    yield_pressure: f64,
+    pub yield_pressure: f64,
     /// Yield strength of cold steel in shear \[Pa].
     pub shear_yield: f64,
     /// Half-width of the nominal patch over the shear modulus [m/Pa].
@@ -103,7 +103,13 @@ impl ContactModel {
         Some(self.yield_pressure * share * borne_in_sliding(standing, traction.friction.coefficient))
     }
 
-    /// Largest pressure of a state in which no steel yields, over what the steel of its line bears \[1], and that \[Pa].
+    /// Smallest pressure under which the steel of some lines would yield at their temperatures \[Pa].
+    pub fn softest_steel(&self, lines: &[Line]) -> f64 {
+        let shares = lines.iter().flat_map(|line| &line.weakening().strength.value);
+        self.yield_pressure * shares.copied().fold(1.0, f64::min)
+    }
+
+    /// Largest pressure of a state over what the steel of its line bears \[1], and that \[Pa].
     pub fn overload(&self, state: &State) -> [f64; 2] {
         let overloads = state.lines.iter().filter_map(|line| {
             let traction = &line.contact.traction;
@@ -240,14 +246,14 @@ impl ContactModel {
             },
             limits: SteelLimits {
                 pressure: self.yield_pressure,
-                least: self.least_pressure(traction.resultant.height),
+                least: self.least_pressure(traction.resultant.height).max(step.firm),
                 sheared: self.standing(
                     [step.rigid.travel.start(), step.rigid.rotation.start()],
                     step.duration,
                     traction,
                 ),
                 flows: self.flows,
-                softened: if step.cold_steel { &piecewise::EMPTY } else { &weakening.strength },
+                softened: if step.firm < self.yield_pressure { &weakening.strength } else { &piecewise::EMPTY },
                 film: &weakening.film,
             },
             friction,

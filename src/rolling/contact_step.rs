@@ -30,8 +30,8 @@ pub struct ContactStep<'a> {
     pub place: [f64; 2],
     /// Height of the rail \[m].
     pub elevation: f64,
-    /// True if the steel keeps its strength however hot it is.
-    pub cold_steel: bool,
+    /// Smallest pressure under which steel yields, however hot it is \[Pa]; 0: it is as soft as it is.
+    pub firm: f64,
     /// Friction coefficient of every line as a function of the slip at the end of the step.
     pub friction: &'a [Friction],
     /// Largest change of the weights at the contact edges that counts as converged \[1].

@@ -315,7 +315,7 @@ fn solve_and_commit(
         rise: plan.rise,
         place,
         elevation: demand.target.elevation,
-        cold_steel: false,
+        firm: 0.0,
         friction: &plan.friction,
         edge_tolerance: EDGE_TOLERANCE,
     };

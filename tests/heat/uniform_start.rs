@@ -149,3 +149,30 @@ fn the_flash_temperature_of_a_uniform_start_becomes_the_stationary_one() {
     println!("flash {uniform:.1} K after 20 ms, stationary {stationary:.1} K");
     assert!((uniform / stationary - 1.0).abs() < 0.12);
 }
+
+/// Steel 700 K hotter bears a fifth of the pressure under which it yields cold. A start with the patch of cold steel would lose a tenth of
+/// its load on a line and two fifths on an ellipse within the first millisecond.
+#[test]
+fn very_hot_wheels_start_with_a_patch_that_bears_their_load_or_are_refused_by_what_they_bear() {
+    let of = |name: &str, excess: f64| {
+        let mut config = common::shipped(name);
+        (config.thermal.wheel_excess, config.initial.velocity) = (excess, 20.0);
+        config
+    };
+    for (name, excess) in
+        [("railway", 700.0), ("railway", 1000.0), ("railway_ellipse", 700.0), ("railway_ellipse", 800.0)]
+    {
+        let config = of(name, excess);
+        let (mut run, inputs) = (start(&config, |_| ()).unwrap(), Inputs::rolling(&config));
+        let before = run.outputs().contact_force_y;
+        run.advance(&inputs, 1e-3).unwrap();
+        let kept = run.outputs().contact_force_y / before;
+        println!("{name}, {excess} K: {kept:.3} of the load after 1 ms");
+        assert!((kept - 1.0).abs() < 0.05, "{name}, {excess} K: {kept}");
+    }
+    let config = of("railway_ellipse", 1000.0);
+    let error = start(&config, |_| ()).err().unwrap();
+    assert!(matches!(error, StepError::Softened { bears, pressure } if pressure > 5.0 * bears), "{error}");
+    let text = advice::failed_start(&error, &config, &Inputs::rolling(&config));
+    assert!(text.contains("bears 125 MPa") && text.contains("thermal.wheel_excess = 1000 K"), "{text}");
+}

@@ -18,21 +18,21 @@ use super::thermal::HeatSupply;
 use crate::axes::Axis;
 use crate::config::{StartTemperature, Tuning};
 use goal::Goal;
-use settle::{Steel, heated, lines, scale, settle};
+use settle::{Firm, heated, lines, scale, settle};
 use std::hash::Hasher;
 
 /// Passes of temperatures and contact.
 const MAX_PASSES: usize = 30;
 /// Passes after which the feedback of the temperatures is averaged, unless the changes shrink by this factor from pass
 /// to pass: friction that softens and swelling that lifts parts of a very hot contact off make it go back and forth. Steel that
-/// finds no yielding state then stays cold.
+/// finds no yielding state then stays firmer than it is.
 const PLAIN_PASSES: usize = 5;
 const CONTRACTION: f64 = 0.5;
 /// Passes in which no yielding state was found after which none is sought any more.
 const MOST_FAILURES: usize = 2;
-/// Pressure of cold steel over what the steel bears, up to which a start is that of cold steel \[1]: the first steps yield. Beyond,
+/// Largest pressure over what the steel bears, up to which a start may be that of firmer steel \[1]: the first steps yield. Beyond,
 /// they would lose most of the load.
-const MOST_OVERLOAD: f64 = 2.0;
+const MOST_OVERLOAD: f64 = 5.0;
 /// Relative change of contact force and creepage at which temperatures and friction are settled: further passes repeat
 /// rounding.
 const THERMAL_TOLERANCE: f64 = 1e-9;
@@ -67,8 +67,8 @@ pub fn start(
 
 /// Stationary state of a goal, with contact and temperatures that belong to each other.
 fn settled(model: &RollingModel, tuning: &Tuning, goal: &Goal, workspace: &mut Workspace) -> Result<State, StepError> {
-    let mut steel = Steel::Yielding;
-    let mut state = settle(model, tuning, goal, lines(model, goal), &mut steel, workspace)?;
+    let mut firm = 0.0;
+    let mut state = settle(model, tuning, goal, lines(model, goal), &mut firm, workspace)?;
     let Some(thermal) = &model.thermal else { return Ok(state) };
     let (mut change, mut averaged, mut failed) = (f64::INFINITY, 0, 0);
     for pass in 0..MAX_PASSES {
@@ -88,24 +88,24 @@ fn settled(model: &RollingModel, tuning: &Tuning, goal: &Goal, workspace: &mut W
             Ok(Some(temperatures))
         });
         let temperatures = temperatures.collect::<Result<Vec<_>, StepError>>()?;
-        let mut settle_from = |lines: &[Line], temperatures, steel: &mut Steel| {
-            settle(model, tuning, goal, heated(model, lines, temperatures), steel, workspace)
+        let mut settle_from = |lines: &[Line], temperatures, firm: &mut Firm| {
+            settle(model, tuning, goal, heated(model, lines, temperatures), firm, workspace)
         };
         // Steel that was too hot to yield in a state on the way may yield in this one, or from another contact on.
         let again = pass < PLAIN_PASSES && failed < MOST_FAILURES;
         if again {
-            steel = Steel::Yielding;
+            firm = 0.0;
         }
-        let mut settled = settle_from(&state.lines, temperatures, &mut steel)?;
-        if again && steel == Steel::Cold {
+        let mut settled = settle_from(&state.lines, temperatures, &mut firm)?;
+        if again && firm > 0.0 {
             failed += 1;
-            let mut other = Steel::Yielding;
+            let mut other = 0.0;
             let temperatures = settled.lines.iter().map(|line| line.thermal.clone()).collect();
             if pass > 0
                 && let Ok(state) = settle_from(&lines(model, goal), temperatures, &mut other)
-                && other == Steel::Yielding
+                && other == 0.0
             {
-                (settled, steel) = (state, other);
+                (settled, firm) = (state, other);
             }
         }
         let before = std::mem::replace(&mut change, difference(model, &state, &settled));
@@ -118,14 +118,16 @@ fn settled(model: &RollingModel, tuning: &Tuning, goal: &Goal, workspace: &mut W
             break;
         }
     }
-    if change > THERMAL_SCATTER {
-        return Err(StepError::Unsettled);
-    }
+    if change <= THERMAL_SCATTER { borne(model, state, firm) } else { Err(StepError::Unsettled) }
+}
+
+/// A state of steel that is no softer than `firm`, unless it bears far less than that.
+fn borne(model: &RollingModel, state: State, firm: Firm) -> Result<State, StepError> {
     let [overload, bears] = model.contact.overload(&state);
-    if steel == Steel::Cold && overload > MOST_OVERLOAD {
-        return Err(StepError::Softened { bears, pressure: overload * bears });
+    match firm > 0.0 && overload > MOST_OVERLOAD {
+        true => Err(StepError::Softened { bears, pressure: overload * bears }),
+        false => Ok(state),
     }
-    Ok(state)
 }
 
 /// Change from one state to the next: of the contact force relative to the load and, since a prescribed force fixes it

@@ -34,26 +34,53 @@ const SLIGHT: f64 = 1e-9;
 /// Share of what friction carries beyond which a contact that finds no state fails for want of adhesion.
 const NEARLY_ALL: f64 = 0.99;
 
-/// Steel of a stationary contact. On coarse meshes a very hot contact may find no state in which it yields: then it is that of
-/// cold steel, and if that stays so to the end, the first steps yield.
-#[derive(PartialEq)]
-pub(super) enum Steel {
-    Yielding,
-    Cold,
-}
+/// Factor by which the pressure under which very hot steel yields falls from one contact to the next \[1], where none was found
+/// from that of cold steel.
+const FALL: f64 = 0.8;
+/// Such a factor at which the search for softer steel ends \[1].
+const LEAST_FALL: f64 = 0.96;
+
+/// Passes in which softer steel is sought.
+const SOFTENED: usize = 2;
+
+/// Smallest pressure under which the steel of a stationary contact yields, however hot it is \[Pa]. It is 0 unless no contact was
+/// found then; if it stays above to the end, the first steps yield.
+pub(super) type Firm = f64;
 
 /// Contact force that changes are compared with [N/m].
 pub(super) fn scale(model: &RollingModel, resultant: PerAxis<f64>) -> f64 {
     resultant.height.abs().max(SLIGHT * model.contact.nominal_line_load())
 }
 
-/// Stationary contact at the temperatures of the lines, from their contact on.
+/// Stationary contact at the temperatures of the lines, from their contact on: that of cold steel where none is found in which very
+/// hot steel yields.
 pub(super) fn settle(
     model: &RollingModel,
     tuning: &Tuning,
     goal: &Goal,
     lines: Vec<Line>,
-    steel: &mut Steel,
+    firm: &mut Firm,
+    workspace: &mut Workspace,
+) -> Result<State, StepError> {
+    let cold = model.contact.yield_pressure;
+    match settle_yielding(model, tuning, goal, lines.clone(), firm, workspace) {
+        Err(StepError::Contact { source: ContactError::NotConverged { .. }, .. })
+            if *firm < cold && are_hot(&lines) =>
+        {
+            *firm = cold;
+            settle_yielding(model, tuning, goal, lines, firm, workspace)
+        }
+        settled => settled,
+    }
+}
+
+/// Stationary contact of steel that is no softer than `firm`.
+fn settle_yielding(
+    model: &RollingModel,
+    tuning: &Tuning,
+    goal: &Goal,
+    lines: Vec<Line>,
+    firm: &mut Firm,
     workspace: &mut Workspace,
 ) -> Result<State, StepError> {
     let [wheel, rail] = model.bodies.at_rest();
@@ -76,8 +103,8 @@ pub(super) fn settle(
     for number in 0..MAX_PASSES {
         // The first pass finds out where wheel and rail touch, and whether they do.
         let touching = number > 0 && state.resultant().height > 0.0;
-        let pass = Pass { model, goal, friction, touching };
-        let passed = pass.run(&state, &mut trial, steel, workspace, &mut next)?;
+        let pass = Pass { model, goal, friction, touching, softens: number < SOFTENED };
+        let passed = pass.run(&state, &mut trial, firm, workspace, &mut next)?;
         // Convective terms come in with the second pass, and whether a speed is sought is decided there, too. A first one that
         // begins with the contact of a settled state finds the same forces without them.
         change = if number > 0 { passed } else { f64::INFINITY };
@@ -92,6 +119,11 @@ pub(super) fn settle(
     }
     goal.check(model, trial.speeds)?;
     Ok(complete(model, goal, &trial, state))
+}
+
+/// True if steel under one of the lines has softened.
+fn are_hot(lines: &[Line]) -> bool {
+    lines.iter().any(|line| !line.weakening().strength.is_empty())
 }
 
 /// Cold lines that touch and stick under about the load.
@@ -136,6 +168,8 @@ struct Pass<'a> {
     friction: &'a [Friction],
     /// True if wheel and rail touch, so that speeds can be sought.
     touching: bool,
+    /// True if contacts of ever softer steel are sought where none yields at once.
+    softens: bool,
 }
 
 impl Pass<'_> {
@@ -151,7 +185,7 @@ impl Pass<'_> {
         &self,
         state: &State,
         trial: &mut Trial,
-        steel: &mut Steel,
+        firm: &mut Firm,
         workspace: &mut Workspace,
         next: &mut State,
     ) -> Result<f64, StepError> {
@@ -178,11 +212,11 @@ impl Pass<'_> {
             rise: 0.0,
             place: [0.0; 2],
             elevation: goal.drive.elevation,
-            cold_steel: *steel == Steel::Cold,
+            firm: *firm,
             friction: self.friction,
             edge_tolerance: EDGE_TOLERANCE,
         };
-        self.solve(contact, (state, trial), steel, &mut workspace.contact, next)?;
+        self.solve(contact, (state, trial), firm, &mut workspace.contact, next)?;
         let accelerations = trial.accelerations;
         model.bodies.commit(&operators, free, accelerations, &td, state, next);
 
@@ -212,24 +246,55 @@ impl Pass<'_> {
         &self,
         contact: ContactStep,
         (state, trial): (&State, &Trial),
-        steel: &mut Steel,
+        firm: &mut Firm,
         scratch: &mut ActiveSetScratch,
         next: &mut State,
     ) -> Result<(), StepError> {
         let model = self.model;
         let mut solved = model.contact.solve(&contact, &state.lines, &mut next.lines, scratch);
         if let Err(ContactError::NotConverged { .. }) = solved
-            && *steel == Steel::Yielding
-            && state.lines.iter().any(|line| !line.weakening().strength.is_empty())
+            && self.softens
+            && *firm == 0.0
+            && are_hot(&state.lines)
         {
-            *steel = Steel::Cold;
-            let contact = ContactStep { cold_steel: true, ..contact };
-            solved = model.contact.solve(&contact, &state.lines, &mut next.lines, scratch);
+            solved = self.soften(&contact, state, firm, scratch, &mut next.lines);
         }
         solved.map_err(|error| match self.check_adhesion(state, trial, NEARLY_ALL) {
             Err(beyond) if !matches!(error, ContactError::ZoneExceeded { .. }) => beyond,
             _ => model.contact.failure(error, 0.0, 0.0),
         })
+    }
+
+    /// Solves the contact of cold steel, and from there those of ever softer steel, as far as there are any.
+    fn soften(
+        &self,
+        contact: &ContactStep,
+        state: &State,
+        firm: &mut Firm,
+        scratch: &mut ActiveSetScratch,
+        found: &mut Vec<Line>,
+    ) -> Result<(), ContactError> {
+        let model = &self.model.contact;
+        *firm = model.yield_pressure;
+        model.solve(&ContactStep { firm: *firm, ..*contact }, &state.lines, found, scratch)?;
+        let warm = |found: &[Line]| -> Vec<Line> {
+            let lines = found.iter().zip(&state.lines);
+            lines.map(|(found, line)| Line { thermal: line.thermal.clone(), ..found.clone() }).collect()
+        };
+        let (mut softer, mut start) = (Vec::new(), warm(found));
+        let (softest, mut fall) = (model.softest_steel(&start), FALL);
+        while *firm > 0.0 && fall < LEAST_FALL {
+            let next = if fall * *firm > softest { fall * *firm } else { 0.0 };
+            match model.solve(&ContactStep { firm: next, ..*contact }, &start, &mut softer, scratch) {
+                Ok(()) => {
+                    *firm = next;
+                    start = warm(&softer);
+                    std::mem::swap(found, &mut softer);
+                }
+                Err(_) => fall = fall.sqrt(),
+            }
+        }
+        Ok(())
     }
 
     /// Refuses a tangential force beyond a `share` of what friction carries.

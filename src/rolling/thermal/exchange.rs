@@ -1,6 +1,6 @@
 //! Exchange of the contact with the temperature fields.
 
-use crate::config::{Config, CrossSection, Hub};
+use crate::config::{Config, CrossSection};
 use crate::contact::Traction;
 use crate::contact::film;
 use crate::heat::{Exchange, HeatMaterial, HeatParameters, Widths};
@@ -75,7 +75,7 @@ pub fn heat_parameters(config: &Config, half_width: f64, zone: f64, reach: f64) 
         },
         widths,
         reference: thermal.reference,
-        hub_held: thermal.hub == Hub::Fixed,
+        hub_held: thermal.hub.is_held(),
         convection: thermal.convection,
         conductance: thermal.conductance,
         heat_ratio: thermal.heat_ratio,
