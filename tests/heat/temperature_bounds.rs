@@ -10,7 +10,7 @@ use wheelrail::heat::*;
 use wheelrail::piecewise::Piecewise;
 use wheelrail::rolling::thermal::heat_parameters;
 use wheelrail::simulation::advice::{failed_preparation, failed_start, failed_step};
-use wheelrail::simulation::{Inputs, Model, Rotation, Simulation, Translation};
+use wheelrail::simulation::{Inputs, Model, Rotation, Simulation, StepError, Translation};
 
 /// Undershoot that counts as none [K].
 const SLIGHT: f64 = 0.1;
@@ -378,6 +378,7 @@ fn friction_that_does_not_soften_melts_the_contact_and_heats_it_no_further_at_an
 /// no point becomes colder than its datum.
 #[test]
 fn wheels_of_any_temperature_below_the_solidus_start_within_the_bounds_and_roll_or_are_refused_by_name() {
+    let mut refused = Vec::new();
     for (elements, excess, velocity) in [
         (10, -250.0, 55.0),
         (20, -250.0, 1.0),
@@ -394,13 +395,21 @@ fn wheels_of_any_temperature_below_the_solidus_start_within_the_bounds_and_roll_
         (config.thermal.wheel_excess, config.initial.velocity) = (excess, velocity);
         config.initial.temperature = StartTemperature::Stationary;
         let inputs = Inputs::rolling(&config);
-        let simulation = Simulation::new(common::model(config.clone()), &inputs).unwrap();
+        let simulation = match Simulation::new(common::model(config.clone()), &inputs) {
+            Err(StepError::Softened { .. }) => {
+                refused.push(excess);
+                continue;
+            }
+            started => started.unwrap(),
+        };
         assert_eq!(Bounds::new(&config, &simulation).broken(&simulation), None, "{excess} K at {velocity} m/s");
         // The rail halves the difference where it meets the tread: bodies of one steel share their contact temperature.
         let rail = simulation.outputs().temperature_rail_max - config.thermal.reference;
         assert!(excess < 0.0 || (0.4..0.65).contains(&(rail / excess)), "{rail} K of {excess} K");
         assert!(watched(config, |_| (), 3, 1e-3) > 0);
     }
+    println!("refused at {refused:?} K");
+    assert!(refused.len() <= 1 && refused.iter().all(|excess| *excess >= 1000.0), "{refused:?}");
 }
 
 #[test]
