@@ -36,7 +36,7 @@ pub struct ContactModel {
     width: f64,
     /// Flexibility of the layer between the surfaces [m/Pa].
     layer: f64,
-    /// Pressure at which cold steel yields [Pa]; infinite: never.
+    /// Pressure at which cold steel yields \[Pa]; infinite: never.
     pub yield_pressure: f64,
     /// Yield strength of cold steel in shear \[Pa].
     pub shear_yield: f64,
