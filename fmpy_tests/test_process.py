@@ -1,7 +1,7 @@
 """The process is not ours: loading, running and closing change nothing of it, not even for a moment, and any order of closing,
 copying, interrupting and threads ends in an answer or in a refusal. Each case is a process of its own: what goes wrong here kills
-it. Every case is tried twenty times, with FMI 3.0 five times; those that load slowly or write files five times and
-twice."""
+it. Every case is tried ten times, with FMI 3.0 three times; those that load slowly or write files three times and
+once."""
 
 import subprocess
 import sys
@@ -431,7 +431,7 @@ def test_the_process_stays_as_it_was_and_every_call_is_answered(case, version, r
     file = request.getfixturevalue("packed" if version == "FMI 2.0" else "packed3")
     for needed in ("xarray", "h5netcdf", "plotly"):
         pytest.importorskip(needed)
-    tries = (20, 5) if case not in SLOW else (5, 2)
+    tries = (10, 3) if case not in SLOW else (3, 1)
     command = [sys.executable, "-c", HEAD + CASES[case], str(file.resolve()), str(tmp_path), str(tries[version == "FMI 3.0"])]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300)
     print(done.stdout, done.stderr)

@@ -174,22 +174,22 @@ def test_a_stationary_curve_is_shown_in_everyday_units(capsys):
     assert float(cells[1]) == pytest.approx(1e-3 * float(values[1]), rel=1e-3)
 
 
-@pytest.mark.parametrize("name, code", [("INT", 130), ("TERM", 143), ("HUP", 129)])
-def test_what_was_computed_until_a_signal_is_in_its_place(name, code):
+SIMULATE = ("simulate", "--stop", "100000", "--out", "run.csv", "--wheel-profile", "wheel.csv")
+STEADY = ("steady", "--creepage=-1e-3:1e-3:1000000", "--out", "run.csv")
+
+
+@pytest.mark.parametrize("name, code, command", [("INT", 130, SIMULATE), ("TERM", 143, STEADY), ("HUP", 129, SIMULATE)])
+def test_what_was_computed_until_a_signal_is_in_its_place(name, code, command):
     Path("run.csv").write_text("an earlier run\n")
-    runs = {
-        start("simulate", "--stop", "100000", "--out", "run.csv", "--wheel-profile", "wheel.csv", *SMALL): "run.csv holds what was computed up to {} s",
-        start("steady", "--creepage=-1e-3:1e-3:1000000", "--out", "curve.csv", *SMALL): "curve.csv holds the first {} of 1000000 creepages",
-    }
-    time.sleep(8.0)
-    for process, words in runs.items():
-        process.send_signal(getattr(signal, f"SIG{name}"))
-        said = process.communicate(timeout=120)[1]
-        found = pandas.read_csv(words.split()[0])
-        assert process.returncode == code and not found.isna().any().any(), said
-        reached = found["time"].iloc[-1] if "time" in found else len(found)
-        assert words.format(reached) in said and said.splitlines()[-1].startswith("error: stopped"), said
-    assert sorted(os.listdir()) == ["curve.csv", "run.csv", "wheel.csv"]
+    process = start(*command, *SMALL)
+    time.sleep(6.0)
+    process.send_signal(getattr(signal, f"SIG{name}"))
+    said = process.communicate(timeout=120)[1]
+    found = pandas.read_csv("run.csv")
+    assert process.returncode == code and not found.isna().any().any(), said
+    holds = f"what was computed up to {found['time'].iloc[-1]} s" if command == SIMULATE else f"the first {len(found)} of 1000000 creepages"
+    assert f"run.csv holds {holds}" in said and said.splitlines()[-1].startswith("error: stopped"), said
+    assert sorted(os.listdir()) == (["run.csv", "wheel.csv"] if command == SIMULATE else ["run.csv"])
 
 
 def test_a_signal_that_the_process_was_started_to_ignore_is_ignored():
