@@ -147,8 +147,8 @@ def difference(before, after, leave_out=()):
 
 
 def compare(before, after, tolerance=0.0):
-    """Compares two results: how far they are apart, and a line that says so; a case that does not run compares nothing. Beyond a tolerance of 0 residuals, which are rounding, and
-    numbers of iterations do not count."""
+    """Compares two results: how far they are apart, and a line that says so. A case that does not run compares nothing. Beyond a tolerance
+    of 0 residuals, which are rounding, and numbers of iterations do not count."""
     if isinstance(before, str) and isinstance(after, str):
         return np.inf, f"both fail{'' if before == after else ', in other words'}: {before[-200:]}"
     if isinstance(before, str) or isinstance(after, str):
