@@ -182,7 +182,7 @@ STEADY = ("steady", "--creepage=-1e-3:1e-3:1000000", "--out", "run.csv")
 def test_what_was_computed_until_a_signal_is_in_its_place(name, code, command):
     Path("run.csv").write_text("an earlier run\n")
     process = start(*command, *SMALL)
-    time.sleep(6.0)
+    time.sleep(8.0)
     process.send_signal(getattr(signal, f"SIG{name}"))
     said = process.communicate(timeout=120)[1]
     found = pandas.read_csv("run.csv")
