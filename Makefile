@@ -275,10 +275,10 @@ $(FMU3): $(BUILT) $(SBOM)
 $(SLIM): $(BUILT) $(SBOM)
 	$(PACKER) pack --no-profiles --out $@ --library $(LIBRARY) --resources resources --sbom $(SBOM) --cache $(CACHE)
 
-$(SBOM): Cargo.toml Cargo.lock slave/Cargo.toml surface/Cargo.toml packaging/sbom.py
+$(SBOM): Cargo.toml Cargo.lock slave/Cargo.toml packaging/sbom.py
 	$(PYTHON) packaging/sbom.py --out $@
 
-$(SBOM_ALL): Cargo.toml Cargo.lock slave/Cargo.toml surface/Cargo.toml packaging/sbom.py
+$(SBOM_ALL): Cargo.toml Cargo.lock slave/Cargo.toml packaging/sbom.py
 	$(PYTHON) packaging/sbom.py --out $@ --target x86_64-unknown-linux-gnu --target x86_64-pc-windows-gnu \
 		--target aarch64-unknown-linux-gnu
 

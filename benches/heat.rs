@@ -2,11 +2,11 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use wheelrail::heat::{
-    Exchange, Heat, HeatLine, HeatMaterial, HeatModel, HeatParameters, HeatScratch, HeatState, WheelStage,
-};
+use wheelrail::config::presets;
+use wheelrail::heat::{Exchange, Heat, HeatLine, HeatModel, HeatParameters, HeatScratch, HeatState, WheelStage};
 use wheelrail::piecewise::Interval;
 use wheelrail::piecewise::Piecewise;
+use wheelrail::rolling::thermal::heat_parameters;
 use wheelrail_numerics::linalg::vectorised::vectorised;
 
 const HALF_WIDTH: f64 = 0.761e-3;
@@ -16,33 +16,13 @@ const STEP: f64 = 0.3e-3;
 
 fn config() -> HeatParameters {
     let zone = 1.5 * HALF_WIDTH;
+    let preset = presets::parse(include_str!("../resources/paper_b.json")).expect("preset");
     HeatParameters {
-        radius: 0.5,
-        hub_radius: 0.05,
-        rail_length: 1.0,
-        rail_height: 0.1,
-        material: HeatMaterial {
-            density: 8000.0,
-            specific_heat: 460.0,
-            conductivity: 45.0,
-            latent_heat: 270e3,
-            solidus: 1723.0,
-            liquidus: 1803.0,
-        },
-        widths: None,
-        reference: 293.0,
         hub_held: true,
-        convection: 0.0,
-        conductance: 1e7,
-        heat_ratio: 0.1,
-        wheel_share: 0.5,
         max_speed: SPEED,
         smallest_load_ratio: 1.0,
-        contact_width: 1.0,
         elements_per_half_width: 20,
-        half_width: HALF_WIDTH,
-        zone,
-        reach: zone,
+        ..heat_parameters(&preset, HALF_WIDTH, zone, zone)
     }
 }
 

@@ -21,7 +21,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Digest of some files, and of all in some directories, named from the root of the checkout: 64-bit FNV-1a of names and contents, each with its length.
+/// Digest of some files, and of all in some directories, named from the root of the checkout: 64-bit FNV-1a of names and
+/// contents, each with its length.
 ///
 /// Equal on every machine and with every compiler, unlike the hashes of the standard library; `tests/tree/basis_code.rs`
 /// computes it once more.

@@ -53,13 +53,13 @@ pub enum StepError {
     /// Steel so hot that no contact was found in which it yields.
     #[error(
         "no equilibrium: the steel of the contact is so hot that it bears {:.0} MPa, and no contact was found in which it yields: \
-         that of cold steel has {:.0} MPa",
+         the softest one has {:.0} MPa",
         1e-6 * bears, 1e-6 * pressure
     )]
     Softened {
         /// Pressure that the steel bears \[Pa].
         bears: f64,
-        /// Largest pressure of the contact of cold steel \[Pa].
+        /// Largest pressure of the contact of the softest steel for which one was found \[Pa].
         pressure: f64,
     },
     /// No steady rolling: force and moment ask for more than friction carries.

@@ -2,12 +2,14 @@
 #![allow(dead_code)]
 
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
+use wheelrail::config::presets;
 use wheelrail::heat::{
-    Exchange, Heat, HeatFlows, HeatLine, HeatMaterial, HeatModel, HeatParameters, HeatScratch, HeatSource, HeatState,
-    Observation, Temperatures,
+    Exchange, Heat, HeatFlows, HeatLine, HeatModel, HeatParameters, HeatScratch, HeatSource, HeatState, Observation,
+    Temperatures,
 };
 pub use wheelrail::piecewise::Interval;
 use wheelrail::piecewise::Piecewise;
+use wheelrail::rolling::thermal::heat_parameters;
 
 pub const KMH: f64 = 1.0 / 3.6;
 pub const RADIUS: f64 = 0.5;
@@ -23,33 +25,13 @@ pub fn half_width(load: f64) -> f64 {
 pub fn config(load: f64, max_speed: f64) -> HeatParameters {
     let half_width = half_width(load);
     let zone = 1.5 * half_width;
+    let preset = presets::parse(include_str!("../../resources/paper_b.json")).unwrap();
     HeatParameters {
-        radius: RADIUS,
-        hub_radius: 0.05,
-        rail_length: 1.0,
-        rail_height: 0.1,
-        material: HeatMaterial {
-            density: 8000.0,
-            specific_heat: 460.0,
-            conductivity: 45.0,
-            latent_heat: 270e3,
-            solidus: 1723.0,
-            liquidus: 1803.0,
-        },
-        widths: None,
-        reference: 293.0,
         hub_held: true,
-        convection: 0.0,
-        conductance: 1e7,
-        heat_ratio: 0.1,
-        wheel_share: 0.5,
         max_speed,
         smallest_load_ratio: 1.0,
-        contact_width: 1.0,
         elements_per_half_width: 20,
-        half_width,
-        zone,
-        reach: zone,
+        ..heat_parameters(&preset, half_width, zone, zone)
     }
 }
 

@@ -121,7 +121,7 @@ fn listed(page: &str) -> Vec<&str> {
 #[test]
 fn the_page_of_dependencies_names_every_crate_that_is_asked_for_and_no_other() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
-    let members = ["bench", "coach", "contact", "numerics", "pack", "slave", "thesis"]
+    let members = ["bench", "bodies", "coach", "contact", "heat", "numerics", "pack", "slave", "surface", "thesis"]
         .map(|member| format!("{member}/Cargo.toml"));
     let manifests: Vec<_> = members.iter().map(String::as_str).chain(["Cargo.toml"]).map(read).collect();
     let asked: BTreeSet<&str> = manifests.iter().flat_map(|manifest| dependencies(manifest)).collect();

@@ -122,9 +122,9 @@ locked at that moment would stay locked in the process that was forked."""
 
 def _alone():
     """In a process that was forked there is no other thread which could hold a lock."""
-    opening.release()
     for calls in list(_living):
         calls.lock = RLock()
+    opening.release()
 
 
 if hasattr(os, "register_at_fork"):
