@@ -21,7 +21,7 @@ PROGRAM = re.compile(
 # Pages that tell what was.
 PAST = ("CHANGELOG.md",)
 PYTHON = ("python/src", "bench", "examples", "packaging", "tools", "docs", "site")
-RUST = ("examples", "bench", "benches", "pack", "src", "coach", "contact", "numerics", "thesis", "slave")
+RUST = ("examples", "bench", "benches", "bodies", "pack", "src", "coach", "contact", "heat", "numerics", "surface", "thesis", "slave")
 SHELL = ("", "sh", "bash", "console", "text")
 
 

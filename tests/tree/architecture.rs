@@ -544,8 +544,10 @@ fn types_of_one_name_are_seen_but_for_those_of_tests_traits_and_implementations(
 #[test]
 fn doc_comments_begin_with_their_subject() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folders =
-        ["src", "slave", "bench", "coach", "contact", "numerics", "pack", "thesis", "tests", "benches", "examples"];
+    let folders = [
+        "src", "slave", "bench", "bodies", "coach", "contact", "heat", "numerics", "pack", "surface", "thesis",
+        "tests", "benches", "examples",
+    ];
     let within = |folder: &str| {
         let files = files_below(&root.join(folder));
         files
