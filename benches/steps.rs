@@ -4,7 +4,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::time::{Duration, Instant};
-use wheelrail::config::{Config, Response};
+use wheelrail::config::Config;
 use wheelrail::simulation::{BasisStore, Inputs, Model, Simulation};
 
 /// A rolling wheel under a braking moment of about half the adhesion limit.
@@ -69,7 +69,7 @@ fn steps(c: &mut Criterion) {
     println!("state: {} kB", postcard::to_stdvec(simulation.state()).expect("bytes").len() / 1024);
 
     let mut config = Config::default();
-    config.solver.response = Response::Full;
+    config.solver.reduced = false;
     let before = resident();
     let (mut simulation, inputs) = braking(Model::prepare(config, &BasisStore::none(), &mut quiet).expect("model"));
     println!("memory of a full simulation: {:.0} MB", resident() - before);

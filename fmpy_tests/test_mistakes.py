@@ -78,7 +78,7 @@ STARTING = {
     "a text for a number": (lambda f: Wheel(f, {"wheel.radius": "large"}), Refused, "wheel.radius = 'large' is not a number [m]"),
     "half an element": (lambda f: Wheel(f, {"mesh.elements_per_half_width": 10.5}), Refused, "10.5 is not a whole number"),
     "another switch": (lambda f: Wheel(f, {"thermal.enabled": "yes"}), Refused, "'yes' is not True or False"),
-    "a choice that is none": (lambda f: Wheel(f, {"solver.response": "fast"}), Refused, "is none of reduced"),
+    "a choice that is none": (lambda f: Wheel(f, {"rail.ends": "fast"}), Refused, "is none of free"),
     "an input out of range": (lambda f: Wheel(f, {}, {"drive.load": -1.0}), Refused, "drive.load"),
     "an output among inputs": (lambda f: Wheel(f, {}, {"wheel.omega": 0.5}), Refused, "wheel.omega is an output"),
     "a profile that cannot be": (lambda f: Wheel(f, {"rail.profile": "sine(1)"}), Refused, "rail.profile"),

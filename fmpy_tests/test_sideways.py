@@ -111,7 +111,6 @@ def test_the_page_has_arrows_of_shear_and_slip_of_every_line(start):
         ({"preset": "railway_ellipse"}, {"drive.lateral_velocity": 0.1}, r"drive.lateral_velocity = 0.1.*set contact.lateral = true"),
         ({}, {"drive.spin": 0.1}, r"drive.spin = 0.1.*set contact.lateral = true"),
         ({"contact.lateral": True}, {}, r"contact.shape = line.*set contact.shape = ellipse or rows"),
-        (ELLIPSE | {"solver.response": "full"}, {}, r"solver.response = full.*set solver.response = reduced"),
         (ELLIPSE, {"control.lateral": "force", "drive.lateral_force": 5e4}, r"drive.lateral_force.*adhesion"),
     ],
 )

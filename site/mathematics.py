@@ -71,7 +71,7 @@ def is_formula(text):
 
     >>> [is_formula(text) for text in ("λ_n ≥ 0", "u", "tanh(s/ε)", "u_free,w", "M = ∫NN")]
     [True, True, True, True, True]
-    >>> [is_formula(text) for text in ("solver.response", "contact::line", "make test", "src/lib.rs", "true", "")]
+    >>> [is_formula(text) for text in ("solver.tolerance", "contact::line", "make test", "src/lib.rs", "true", "")]
     [False, False, False, False, False, False]
     """
     if not text or CODE.search(text):

@@ -107,7 +107,7 @@ impl Model {
     ) -> Result<Arc<Self>, PrepareError> {
         let Ingredients { config, rows, surfaces } = ingredients;
         let (mut basis, mut file, mut not_kept) = (None, None, None);
-        if config.solver.response.is_reduced() {
+        if config.solver.reduced {
             let (found, bytes) = match store.find(&config)? {
                 Some(stored) => stored,
                 None => {

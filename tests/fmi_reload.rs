@@ -50,16 +50,11 @@ fn alone() -> MutexGuard<'static, ()> {
 #[ignore = "called by the_library_goes_whatever_was_computed_in_it"]
 fn compute_and_unload() {
     assert_eq!(std::env::var("WHEELRAIL_CACHE").as_deref(), Ok(""));
-    const FULL: i32 = 2;
     type Change<'a> = (&'a str, &'a dyn Fn(&Slave));
-    let cases: [Change; 4] = [
+    let cases: [Change; 3] = [
         ("bases computed, on threads", &|slave| slave.coarsen()),
         ("a patch of many nodes, whose system is solved at once", &|slave| {
             assert_eq!(slave.set_integer("mesh.elements_per_half_width", 12), fmi2OK);
-        }),
-        ("matrices factorised in steps", &|slave| {
-            slave.coarsen();
-            assert_eq!(slave.set_integer("solver.response", FULL), fmi2OK);
         }),
         ("two patches", &|slave| {
             slave.coarsen();

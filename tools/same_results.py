@@ -55,7 +55,6 @@ CASES = {
     "paper_d": ("paper_d", {}, {"time": [0, 0.05], "drive.moment": [0, 8000]}, 1e-3, 0.05),
     "fine_steps": ("railway", {"mesh.elements_per_half_width": 10}, VARYING, 1e-4, 0.1),
     "braking": ("railway", {}, {"time": [0, 0.2], "drive.moment": [0, -8000]}, 1e-3, 0.2),
-    "full_bodies": ("railway", {"solver.response": "full", "mesh.elements_per_half_width": 5}, VARYING, 1e-3, 0.01),
     "locked": ("railway", SPEEDS | {"initial.velocity": 60 / 3.6}, locked(60 / 3.6), 1e-3, 0.2),
     "locked_by_brake": ("railway_wet", DRAWN | {"initial.velocity": 30, "drive.velocity": 30}, BRAKE, 1e-3, 0.2),
     "melting": ("railway_dry", SPEEDS | {"initial.velocity": 40, "mesh.elements_per_half_width": 10}, locked(40.0), 5e-4, 0.1),

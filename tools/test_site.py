@@ -61,8 +61,8 @@ class Site(unittest.TestCase):
             self.assertEqual(bare(shown), bare(block))
 
     def test_symbols_in_the_text_become_formulas_and_names_of_the_code_do_not(self):
-        page = "<p><code>λ_n</code> of <code>solver.response</code></p><pre><code>λ_n</code></pre>"
-        expected = '<p><span class="symbol"><i>λ</i><sub>n</sub></span> of <code>solver.response</code></p><pre><code>λ_n</code></pre>'
+        page = "<p><code>λ_n</code> of <code>solver.tolerance</code></p><pre><code>λ_n</code></pre>"
+        expected = '<p><span class="symbol"><i>λ</i><sub>n</sub></span> of <code>solver.tolerance</code></p><pre><code>λ_n</code></pre>'
         self.assertEqual(mathematics.symbols(page), expected)
 
 

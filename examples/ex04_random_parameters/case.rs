@@ -78,7 +78,6 @@ impl Case {
                 Causality::Parameter if coarse && variable.name == "mesh.elements_per_half_width" => {
                     Some(Value::Integer(4 + random.below(5) as i32))
                 }
-                Causality::Parameter if variable.name == "solver.response" && coarse => Some(Value::Integer(1)),
                 Causality::Parameter => (changed < share).then(|| draw(variable, &mut random)),
                 Causality::Input => (changed < input_share).then(|| draw(variable, &mut random)),
             };

@@ -4,7 +4,7 @@
 //!     cargo run --release --example fields -- --torque 4000 --stop 0.05 --every 0.01 --out film
 //!
 //! The first writes a state of stationary rolling, the second a series over a run that begins with it and in which a brake acts:
-//! open `fields.pvd`. Displacement and stress need all finite-element equations (`solver.response` is full), and are those of contact,
+//! open `fields.pvd`. Displacement and stress need all finite-element equations (`solver.reduced` is false), and are those of contact,
 //! inertia and centrifugal load, without thermal strain. Lengths are in metres with wheel and rail just touching at the origin; the
 //! displacement brings them into contact. The velocity is that of the material seen from the wheel centre.
 
@@ -16,7 +16,7 @@ use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 use vtu::Data;
-use wheelrail::config::{Config, Response, StartTemperature, presets};
+use wheelrail::config::{Config, StartTemperature, presets};
 use wheelrail::simulation::{
     BasisStore, BodyField, Inputs, Model, Rotation, Simulation, Stress, TemperatureField, Translation,
     peripheral_velocity,
@@ -66,7 +66,7 @@ impl Options {
             groups[group][name] = serde_json::from_str(value).unwrap_or_else(|_| json!(value));
         }
         let mut config = presets::parse(&groups.to_string())?;
-        (config.solver.response, config.initial.temperature) = (Response::Full, StartTemperature::Stationary);
+        (config.solver.reduced, config.initial.temperature) = (false, StartTemperature::Stationary);
         Ok(config)
     }
 

@@ -50,7 +50,7 @@ impl From<&Config> for BodyParameters {
             reach: mesh.reach.max(of_flat),
             elements: mesh.elements_per_half_width,
             grid_elements: mesh.grid_elements_per_half_width,
-            reduced: solver.response.is_reduced(),
+            reduced: solver.reduced,
             modes: [solver.modes_wheel, solver.modes_rail],
             damping: [of_wheel, BodyDamping::even(damping.rail)],
             centrifugal: config.physics.centrifugal,

@@ -40,14 +40,6 @@ choice! {
 }
 
 choice! {
-    /// Body response behind the contact.
-    pub enum Response named "Response", "How the bodies answer contact tractions" {
-        Reduced = "reduced", "vibration modes plus residual flexibility";
-        Full = "full", "all finite-element equations";
-    }
-}
-
-choice! {
     /// Shape of the patch in which wheel and rail touch.
     pub enum ContactShape named "ContactShape", "Shape of the contact patch" {
         Line = "line", "a line of constant width: model.contact_width";
@@ -90,8 +82,6 @@ questions! {
     Wear: is_on { TGamma => true, Off => false }
     /// The hub has the reference temperature.
     Hub: is_held { Fixed => true, Insulated => false }
-    /// Bodies are reduced to vibration modes, which a stored basis holds.
-    Response: is_reduced { Reduced => true, Full => false }
     /// The patch is as wide as the bodies, and has one line.
     ContactShape: is_line { Line => true, Ellipse => false, Rows => false }
     /// The host knows the wheelset.

@@ -66,16 +66,16 @@ fn possible(kind: Kind) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{Hub, Response};
+    use crate::config::Hub;
 
     #[test]
     fn a_preset_changes_what_it_names_and_nothing_else() {
         let text = r#"{"wheel": {"radius": 0.5}, "thermal": {"hub": "insulated", "tread_blocks": 1, "enabled": false},
-            "friction": {"softening": 0}, "solver": {"response": "full"}}"#;
+            "friction": {"softening": 0}}"#;
         let mut expected = Config::default();
         expected.wheel.radius = 0.5;
         (expected.thermal.hub, expected.thermal.tread_blocks, expected.thermal.enabled) = (Hub::Insulated, 1, false);
-        (expected.tuning.softening, expected.solver.response) = (0.0, Response::Full);
+        expected.tuning.softening = 0.0;
         assert_eq!(parse(text), Ok(expected));
         assert_eq!(parse("{}"), Ok(Config::default()));
     }

@@ -34,6 +34,14 @@ pub const RETIRED: &[Retired] = &[
                   wheel that does not expand",
     },
     Retired {
+        number: 1090,
+        name: "solver.response",
+        since: "0.24.0",
+        last: "0.23.0",
+        instead: "the bodies always answer by their vibration modes; remove it. The Rust library still has all finite \
+                  elements",
+    },
+    Retired {
         number: 1091,
         name: "solver.modes_wheel",
         since: "0.21.0",

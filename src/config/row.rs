@@ -98,7 +98,7 @@ macro_rules! parameters {
 
         impl $Config {
             /// Number of parameters.
-            pub const COUNT: usize = [$($( $number ),*),*].len();
+            pub const COUNT: usize = [$($( $number, )*)*].len();
 
             /// Names of the fields that are no parameters, in the form `group.name`.
             pub const INSIDE: &'static [&'static str] =

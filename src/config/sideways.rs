@@ -12,7 +12,7 @@ pub fn check(config: &Config) -> Result<(), ConfigError> {
             "contact.shape = line, whose contact has no width",
             "contact.shape = ellipse or rows",
         ),
-        (!solver.response.is_reduced(), "solver.response = full", "solver.response = reduced"),
+        (!solver.reduced, "all finite elements", "solver.reduced = true"),
     ];
     if config.wheelset.side.is_known() && !contact.lateral {
         return Err(ConfigError::NotSideways);
@@ -24,7 +24,7 @@ pub fn check(config: &Config) -> Result<(), ConfigError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{ContactShape, Response};
+    use crate::config::ContactShape;
 
     fn refused(change: impl Fn(&mut Config), words: &[&str]) {
         let mut config = Config::default();
@@ -39,9 +39,6 @@ mod tests {
     fn what_does_not_go_with_two_directions_is_refused_with_what_to_set() {
         let both = |other: &'static str, remedy: &'static str| ["contact.lateral = true", other, remedy];
         refused(|c| c.contact.shape = ContactShape::Line, &both("contact.shape = line", "set contact.shape = ellipse"));
-        refused(
-            |c| c.solver.response = Response::Full,
-            &both("solver.response = full", "set solver.response = reduced"),
-        );
+        refused(|c| c.solver.reduced = false, &both("all finite elements", "set solver.reduced = true"));
     }
 }

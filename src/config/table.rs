@@ -6,9 +6,7 @@
 //! they come first in the reference. A row that is taken out moves to [`super::retired`]. Fields that are `inside` are no
 //! parameters: only code sets them, that of tests and of the thesis.
 
-use super::choices::{
-    ContactShape, CrossSection, Given, Hub, RailEnds, Response, StartTemperature, Wear, WheelsetSide,
-};
+use super::choices::{ContactShape, CrossSection, Given, Hub, RailEnds, StartTemperature, Wear, WheelsetSide};
 use super::row::parameters;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -211,9 +209,9 @@ parameters! {
         }
         /// Numerical choices.
         solver: SolverParameters fixed {
-            1090 expert response: Response = Response::Reduced, "How the bodies answer contact tractions";
-            inside modes_wheel: usize = 80, "Vibration modes kept for the wheel (reduced response)";
-            inside modes_rail: usize = 40, "Vibration modes kept for the rail (reduced response)";
+            inside reduced: bool = true, "Bodies answer contact tractions by vibration modes, else by all finite elements";
+            inside modes_wheel: usize = 80, "Vibration modes kept for the wheel";
+            inside modes_rail: usize = 40, "Vibration modes kept for the rail";
         }
         /// Stationary rolling state from which the run starts.
         initial: Initial fixed {

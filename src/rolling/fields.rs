@@ -14,8 +14,8 @@ pub use crate::mechanics::field::{BodyField, Stress};
 /// Why fields could not be given.
 #[derive(Debug, thiserror::Error)]
 pub enum FieldError {
-    /// The reduced response knows the surface only.
-    #[error("displacement and stress of the whole bodies need solver.response = full: the reduced one has none")]
+    /// Vibration modes know the surface only.
+    #[error("displacement and stress of the whole bodies need solver.reduced = false: modes have none")]
     Reduced,
     /// The mesh.
     #[error("finite-element model: {0}")]

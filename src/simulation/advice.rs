@@ -195,7 +195,7 @@ fn mechanics(error: &MechanicsError, config: &Config) -> String {
 }
 
 fn body(config: &Config) -> String {
-    config.told("change {mesh.elements_per_half_width now}, or choose solver.response = full")
+    config.told("change {mesh.elements_per_half_width now}")
 }
 
 #[cfg(test)]

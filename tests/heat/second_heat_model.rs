@@ -4,7 +4,7 @@
 
 use crate::common::{self, preset};
 use std::f64::consts::PI;
-use wheelrail::config::{Config, Response, StartTemperature};
+use wheelrail::config::{Config, StartTemperature};
 use wheelrail::heat::{
     Exchange, HeatError, HeatFlows, HeatLine, HeatModel, HeatParameters, HeatScratch, HeatState, Observation,
     TemperatureField, Temperatures,
@@ -183,7 +183,7 @@ impl HeatModel for FlashModel {
 /// RollingModel on flash temperatures, and one on tensor meshes.
 fn models(start: StartTemperature) -> [RollingModel; 2] {
     let mut config = preset("railway", 20);
-    config.solver.response = Response::Reduced;
+    config.solver.reduced = true;
     config.initial.temperature = start;
     // The flash model has no swelling, and a friction that follows the flash varies from step to step.
     (config.material.expansion, config.tuning.softening) = (0.0, 0.0);

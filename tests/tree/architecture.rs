@@ -443,7 +443,7 @@ fn the_rolling_motion_knows_no_grid() {
 fn choices_are_matched_on_every_item() {
     let sources = sources();
     let items: Vec<String> = sources.iter().flat_map(|(_, text)| items(text)).collect();
-    assert!(items.len() > 20 && items.iter().any(|item| item == "Response::Full"), "{items:?}");
+    assert!(items.len() > 20 && items.iter().any(|item| item == "RailEnds::Free"), "{items:?}");
     let found = |(file, text): &(String, String)| {
         shortcuts(text, &items).into_iter().map(|found| format!("{file} {found}")).collect::<Vec<_>>()
     };

@@ -2,7 +2,7 @@
 
 use crate::common::{figure, model, prescribed, preset};
 use wheelrail::analytic::{contact_modulus, hertz_half_width, hertz_peak_pressure};
-use wheelrail::config::{Config, Response, StartTemperature};
+use wheelrail::config::{Config, StartTemperature};
 use wheelrail::fem::mesh::Mesh;
 use wheelrail::mechanics::{rail_mesh, wheel_mesh};
 use wheelrail::simulation::{BodyField, Inputs, Simulation, Stress};
@@ -10,7 +10,7 @@ use wheelrail::simulation::{BodyField, Inputs, Simulation, Stress};
 /// The wheel of Papers D on a small mesh, with the response of all nodes.
 fn small() -> Config {
     let mut config = preset("paper_d", 8);
-    (config.solver.response, config.initial.temperature) = (Response::Full, StartTemperature::Stationary);
+    (config.solver.reduced, config.initial.temperature) = (false, StartTemperature::Stationary);
     config
 }
 

@@ -4,7 +4,7 @@ use crate::common::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use wheelrail::analytic::hub_torsion;
-use wheelrail::config::{Config, Damping, Response};
+use wheelrail::config::{Config, Damping};
 use wheelrail::material::Isotropic;
 use wheelrail::mechanics::{Basis, BodyDamping, BodyParameters};
 use wheelrail::rolling::State;
@@ -234,7 +234,7 @@ fn damped_reduced_and_full_response_agree_within_a_thousandth_of_the_load() {
     config.thermal.enabled = false;
     config.damping = Damping::default();
     let reduced = model(config.clone());
-    config.solver.response = Response::Full;
+    config.solver.reduced = false;
     let full = model(config);
     let mut inputs = prescribed(&reduced, 50.0 * KMH, 0.0);
     let [mut a, mut b] = [&reduced, &full].map(|m| Simulation::new(m.clone(), &inputs).unwrap());

@@ -1,14 +1,13 @@
 //! The reduced bodies against the full finite-element equations on the same mesh.
 
 use crate::common::*;
-use wheelrail::config::Response;
 use wheelrail::simulation::Simulation;
 
 #[test]
 fn reduced_and_full_response_agree_within_a_thousandth_of_the_load() {
     let mut config = preset("paper_d", 10);
     let reduced = model(config.clone());
-    config.solver.response = Response::Full;
+    config.solver.reduced = false;
     let full = model(config);
     // Quasi-static rolling.
     for creepage in [0.0, -2e-4, 4e-4] {

@@ -57,16 +57,9 @@ impl WheelSlave {
         self.simulation.as_mut().ok_or_else(|| CallError::error("no simulation"))
     }
 
-    /// Result of a computation by the simulation; on a thread of its own where it factorises matrices.
-    pub(super) fn compute<R: Send>(
-        &mut self,
-        life: &Life,
-        work: impl FnOnce(&mut Simulation) -> R + Send,
-    ) -> Outcome<R> {
-        let full = !self.config.solver.response.is_reduced();
-        let aside = if full { life.aside() } else { aside::here };
-        let simulation = self.simulation(life)?;
-        aside::run(aside, &mut |_, _| {}, |_| work(simulation))
+    /// Result of a computation by the simulation.
+    pub(super) fn compute<R>(&mut self, life: &Life, work: impl FnOnce(&mut Simulation) -> R) -> Outcome<R> {
+        self.simulation(life).map(work)
     }
 
     /// Derivatives of outputs along a direction of inputs, of which each has its component (see
