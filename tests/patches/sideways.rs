@@ -183,7 +183,7 @@ fn nothing_warms_where_it_sticks() {
 }
 
 /// Kalker's coefficients for ν = 0.3 of CONTACT on 61 × 41 elements, secants up to 1 % below the slope at rest: C₁₁, C₂₂, C₂₃
-/// and C₃₃. The last one is 2.9, 1.9 and −2.7 % off on seven lines, .4, −1.0 and −4.8 % on 13.
+/// and C₃₃. How far the last one is off is in docs/validation.md.
 #[test]
 fn creep_coefficients_of_small_creepages_and_spins_are_those_of_kalker() {
     for (aspect, kalker) in KALKER {
