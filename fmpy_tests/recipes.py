@@ -194,7 +194,7 @@ NOT_RUN = {
     ),
     "writes into the checkout what other tests compare with what is there": (
         "make describe", ".venv/bin/python examples/reference/make.py --fmu target/wheelrail.fmu",
-        ".venv/bin/python docs/model_png.py", "docs/third_party.py",
+        ".venv/bin/python docs/model_png.py", ".venv/bin/python docs/doors_png.py", "docs/third_party.py",
     ),
     "needs compilers for Windows, WebAssembly, wine, another machine or packages from the network": (
         "make bench-page",
