@@ -16,5 +16,5 @@ from .team import Team
 from .warn import WheelrailWarning
 
 __all__ = ["Fmu", "Refused", "Team", "Wheel", "WheelrailWarning", "celsius", "damage", "load", "patch", "save", "simulate", "steady", "table"]
-__version__ = "0.23.0"
+__version__ = "0.24.0"
 logging.getLogger(__name__).addHandler(logging.NullHandler())  # silent unless the user asks
