@@ -182,7 +182,8 @@ NOT_RUN = {
         'cargo run --release --locked -p wheelrail-thesis -- "D 11–15"', 'cargo run --release --locked -p wheelrail-thesis -- "D 16–17"',
     ),
     "this test runs within it, or it compiles everything once more": (
-        ".ci/run", "make test", "make test-fmpy", "make loop TEST=brake", "make loop TEST=tree", "make loop TEST=NAME", "make loop TEST=lib ARGS=MODULE::",
+        ".ci/run", "make test", "make test-fmpy", "make loop TEST=brake", "make loop TEST=tree", "make loop TEST=NAME",
+        "make loop TEST=default_values", "make loop TEST=model_description", "python3 -m unittest discover tools", "make loop TEST=lib ARGS=MODULE::",
         "make figures", "make figures ALL=1", "make figures ACCEPT=1", 'make figures ACCEPT=1 REASON="..."',
         'make figures ACCEPT=1 REASON="fewer nodes"', "python3 tools/run_tests.py -p wheelrail --test contact", "tools/figures.py --keep locked-wheels make study NAME=locked-wheels",
         "make mutations", "tools/mutations.py", "tools/mutations.py film damping", "tools/mutations.py --factor 0.95",
