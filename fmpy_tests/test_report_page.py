@@ -154,16 +154,6 @@ def test_a_run_without_heat_has_no_temperatures_and_one_without_friction_never_s
     assert set(shown["units"]) == {"pressure", "shear", "slip"} and set(np.unique(shown["state"])) == {0, 2}
 
 
-def test_guessed_units_are_those_of_the_fmu(fmu):
-    described = {
-        v.name: v.unit or (v.declaredType.unit if v.declaredType is not None else None) or ""
-        for v in fmu.description.modelVariables if v.causality == "output" and v.type == "Real" and "[" not in v.name
-    }  # fmt: skip
-    wrong = {name: (unit, sources.guessed(name)) for name, unit in described.items() if sources.guessed(name) not in ("", unit)}
-    assert not wrong
-    assert sum(sources.guessed(name) == unit != "" for name, unit in described.items()) > 55
-
-
 def test_a_csv_with_or_without_units_gives_the_curves_of_the_run(run, packed, tmp_path):
     plain = sources.read(columns(tmp_path / "plain.csv", run), packed)
     named = lambda name, s: (

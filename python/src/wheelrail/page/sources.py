@@ -16,7 +16,6 @@ from ..units import UnitError, converted, headed, unit_of
 from ..values import first_line
 from . import stops
 from .run import Profiles, Run, Series, of_dataset, seen_lines, seen_rows
-from .units import guessed
 
 HDF, CLASSIC = b"\x89HDF", b"CDF"
 FLAGS = {"true": 1.0, "false": 0.0}
@@ -130,8 +129,8 @@ def _of_csv(path, columns, described):
     """The run of a CSV of `wheelrail simulate --out`."""
     time, series, points = columns.pop("time")[1], {}, {"profile": {}, "line": {}}
     for name, column in columns.items():
-        known, meaning = described.get(name, (guessed(name.partition("[")[0]), ""))
-        found = Series(_in(path, name, column, known), known, meaning) if known or name in described else _as_written(*column)
+        known, meaning = described.get(name, ("", ""))
+        found = Series(_in(path, name, column, known), known, meaning) if name in described else _as_written(*column)
         if point := POINT.match(name):
             points[point["of"]].setdefault(point["name"], {})[int(point["point"])] = found.values
         else:
@@ -139,7 +138,7 @@ def _of_csv(path, columns, described):
     patch, lines = (
         {name: np.column_stack([found[k] for k in sorted(found)]) for name, found in points[of].items()} for of in points
     )
-    about = {} if described else {"note": "Units are guessed from the names: there is no FMU here that says them."}
+    about = {} if described else {"note": "There is no FMU here that says units and meanings."}
     return Run(path.stem, time, series, seen_rows(Profiles(time, patch)), about=about, lines=seen_lines(time, lines))
 
 

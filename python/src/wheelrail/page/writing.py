@@ -5,8 +5,9 @@ import re
 
 import numpy as np
 
+from ..fmu import known_unit
 from . import balance, charts, film, html, stops
-from .units import CELSIUS, KMH, PERCENT, Shown, guessed, number, shown
+from .units import CELSIUS, KMH, PERCENT, Shown, number, shown
 
 MOMENT = re.compile(r"^t = ([\d.e+-]+) s: ")  # with which the FMU begins its warnings
 CREDIT = "Drawn by plotly.js (MIT licence, © Plotly), which is inside this file; nothing is loaded from anywhere."
@@ -223,7 +224,7 @@ def settings(run):
 def _setting(name, value):
     """A value as the FMU takes it, in SI units; absolute temperatures in °C beside it."""
     text = value if isinstance(value, str) else json.dumps(value) if not isinstance(value, float) else f"{value:.9g}"
-    return f"{text} K = {CELSIUS.text(value)}" if guessed(name) == "K" and isinstance(value, (int, float)) else text
+    return f"{text} K = {CELSIUS.text(value)}" if known_unit(name, shown=True) == "degC" and isinstance(value, (int, float)) else text
 
 
 def quantities(run):
