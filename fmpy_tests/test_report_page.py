@@ -365,15 +365,16 @@ def test_results_of_a_train_are_read_from_their_directory(stopped, tmp_path):
     (tmp_path / "other.csv").write_text("a,b\n1,2\n")
     read = sources.read(tmp_path)
     assert list(read) == ["dry", "wsp on"]
-    mine = {name: stops.of_table(table) for name, (table, _) in stopped.items()}
+    mine = {name: table for name, (table, _) in stopped.items()}
+    assert not stops.recognised(["time", "speed", "peripheral_1"])
     # But for the last one, half a second whose first sample comes or goes with the digits of a CSV.
     assert stops.figures(read)[1:-1] == stops.figures(mine)[1:-1]
     assert stops.figures(mine)[1][1:] == [
         units.number(report.figures(table)["stopping distance"][0]) for table, _ in stopped.values()
     ]
-    celsius = stops.of_columns({"contact_celsius_1": (None, np.array([20.0, np.nan])), "speed": (None, np.zeros(2))})
-    assert celsius.columns["hottest_1"].tolist() == [293.15, 0.0] and celsius.columns["speed"].tolist() == [0.0, 0.0]
-    titles = [c["title"] for c in stops.charts(read["wsp on"])]
+    given = {name: (None, np.zeros(2)) for name in report.columns()} | {"contact_celsius_1": (None, np.array([20.0, np.nan]))}
+    assert report.column(stops.of_columns(given), "hottest", 0).tolist() == [293.15, 0.0]
+    titles = [c["title"] for c in stops.charts(read["wsp on"], read.values())]
     assert titles[:4] == ["Speed of travel and of the treads", "Slide", "Pressure in the cylinders", "Adhesion used"]
 
 
@@ -518,7 +519,7 @@ def test_the_page_of_stops_changes_from_stop_to_stop_and_fits_a_telephone(stoppe
     seen = {}
     for name in stopped:
         tab.check(f"input[name=view][value='{name}']")
-        expected = next(t for t in stops.charts(stops.of_table(stopped[name][0]))[0]["traces"] if t["name"] == "axle 1")["y"]
+        expected = next(t for t in stops.charts(stopped[name][0], [table for table, _ in stopped.values()])[0]["traces"] if t["name"] == "axle 1")["y"]
         tab.wait_for_function("(n) => document.querySelector('#charts .plot').data[1].y.length === n", arg=len(expected))
         seen[name] = tab.evaluate(slide)
         assert seen[name] == expected

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .. import report
 from ..files import BadFile
 from ..fmu import Fmu, Refused, default_path
 from ..origin import preset_values
@@ -23,7 +24,7 @@ POINT = re.compile(r"^(?P<of>profile|line)\.(?P<name>\w+)\[(?P<point>\d+)\]$")
 
 
 def read(path, fmu=None):
-    """What a file or directory holds: a `Run`, or a dict of stops, name to `stops.Stop`. `fmu` is a path: what its
+    """What a file or directory holds: a `Run`, or a dict of stops, name to table. `fmu` is a path: what its
     description says of units and meaning holds for a CSV without units."""
     path = Path(path)
     if path.is_dir():
@@ -159,9 +160,9 @@ def _directory(path):
             found[file.stem.removeprefix("train_").replace("_", " ")] = _stop(file, table(file)[1])
     if not found:
         raise BadFile(
-            f"{path}: no CSV of a stop in it (columns time, speed, peripheral_1); expected results of `python -m wheelrail train`"
+            f"{path}: no CSV of a stop in it (columns time, speed … of all axles); expected results of `python -m wheelrail train`"
         )
-    return dict(sorted(found.items(), key=lambda item: item[1].travelled()))
+    return dict(sorted(found.items(), key=lambda item: report.column(item[1], "travelled")[-1]))
 
 
 def _stop(path, columns):

@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 
+from .. import report
 from ..fmu import known_unit
 from . import balance, charts, film, html, stops
 from .units import CELSIUS, KMH, PERCENT, Shown, number, shown
@@ -50,15 +51,13 @@ def run_page(run, when):
 
 
 def stops_page(title, found, about, when):
-    """The page of stops: `found` is name to `stops.Stop`, `about` rows of texts."""
+    """The page of stops: `found` is name to table, `about` rows of texts."""
     first, title = next(iter(found.values())), title[:1].upper() + title[1:]
     longest = [(name, stops.reached(s)) for name, s in found.items()]
-    parts = [html.head(title, f"{len(found)} stops, {len(first.axles())} axles, written {when}", longest), html.EMPTY]
+    parts = [html.head(title, f"{len(found)} stops, {len(report.axles_of(first))} axles, written {when}", longest), html.EMPTY]
     parts.append(html.section("overview", "Side by side", html.charts("together")))
-    rows = stops.figures(found)
-    if rows:
-        note = "One figure for each axle, the leading one first. Slide is (V − rω)/V."
-        parts.append(html.section("figures", "Key figures", html.table(rows, "numbers"), note))
+    note = "One figure for each axle, the leading one first. Slide is (V − rω)/V."
+    parts.append(html.section("figures", "Key figures", html.table(stops.figures(found), "numbers"), note))
     choice = html.choices(found) if len(found) > 1 else ""
     parts.append(
         html.section("curves", "Over time", choice + html.charts(), "Zoom in one figure zooms all; a click on a name hides it.")
