@@ -178,7 +178,7 @@ def _octaves(options):
         # A file of one whole period may repeat its first place at the end.
         if len(values) > 3 and np.isclose(values[0], values[-1], rtol=1e-9, atol=0.0):
             over, values = over[:-1], values[:-1]
-    frequency, level = signals.octaves(over, values, reference, "none" if options.periodic else "hann")
+    frequency, level = signals.octaves(over, values, reference, "boxcar" if options.periodic else "hann")
     if profile:
         limit = [surfaces.EN_ISO_3095.get(round(-10.0 * np.log10(f)), np.nan) for f in frequency]
         lines = [f"{'wavelength [m]':>14s} {'level [dB]':>12s} {'EN ISO 3095':>12s}"]
