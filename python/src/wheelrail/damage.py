@@ -12,7 +12,6 @@ import json
 import sys
 from argparse import Namespace
 from collections.abc import Mapping
-from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -174,14 +173,13 @@ def settle(wheel: Wheel, *, step: float = 5e-3, longest: float = 120.0, progress
     from .progress import Bar, is_terminal
 
     begin = wheel.time
-    with Bar(desc="cooling", bar_format=BAR) if progress and is_terminal(sys.stderr) else nullcontext() as bar:
+    with Bar(desc="cooling", bar_format=BAR, disable=not (progress and is_terminal(sys.stderr))) as bar:
         while hot := wheel.get("damage.hot_places"):
             if wheel.time - begin > longest:
                 raise TimeoutError(f"{hot} places of the tread are still hot after {longest:g} s")
             wheel.step(step)
-            if bar:
-                bar.set_postfix_str(f"{wheel.time - begin:.2f} s rolled, {hot} places hot", refresh=False)
-                bar.update()
+            bar.set_postfix_str(f"{wheel.time - begin:.2f} s rolled, {hot} places hot", refresh=False)
+            bar.update()
     wheel.sample()
     return wheel.time - begin
 
