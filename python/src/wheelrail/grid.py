@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy
 
-from .records import library
+from .records import OF_PATCH, library
 from .units import in_si
 
 if TYPE_CHECKING:
@@ -30,17 +30,7 @@ if TYPE_CHECKING:
 STICKS = 1e-6  # m/s: a place that slips less sticks
 SHAPE = np.linspace(-1.0, 1.0, 121)  # ξ of the shapes of lines
 MARGIN = 1.08  # of the grid over the largest patch
-MEANING = {
-    "pressure": ("Pa", "Contact pressure"),
-    "shear": ("Pa", "Shear traction on the wheel along the rail, positive in x"),
-    "shear_z": ("Pa", "Lateral shear traction on the wheel, to the right positive"),
-    "slip": ("m/s", "Slip velocity along the rail"),
-    "slip_z": ("m/s", "Lateral slip velocity, to the right positive"),
-    "state": ("1", "0 where nothing touches, 1 where the surfaces stick, 2 where they slip"),
-    "temperature_wheel": ("K", "Surface temperature of the wheel"),
-    "temperature_rail": ("K", "Surface temperature of the rail"),
-}
-QUANTITIES = tuple(name for name in MEANING if name != "state")
+STATE = {"units": "1", "long_name": "0 where nothing touches, 1 where the surfaces stick, 2 where they slip"}
 
 
 class NoPatch(ValueError):
@@ -59,7 +49,7 @@ def patch(run: xarray.Dataset, *, along: int = 81, across: int = 41) -> xarray.D
     if "patch.pressure" not in run or "line.position" not in run:
         raise NoPatch("the record has no patch: make it with patch=True")
     run = in_si(run)
-    source = {name: run[f"patch.{name}"].values for name in QUANTITIES if f"patch.{name}" in run}
+    source = {name: run[f"patch.{name}"].values for name in OF_PATCH if f"patch.{name}" in run}
     nodes, position, half = run["x"].values, run["line.position"].values, run["line.half_length"].values
     side = _sides(run, position)
     reach = MARGIN * max(float(np.max(half)), 2.0 * float(nodes[1] - nodes[0]))
@@ -70,7 +60,7 @@ def patch(run: xarray.Dataset, *, along: int = 81, across: int = 41) -> xarray.D
         for k in range(run.sizes["time"])
     ]
     data = {
-        name: (("time", "z", "x"), np.array([frame[name] for frame in found]), {"units": MEANING[name][0], "long_name": MEANING[name][1]})
+        name: (("time", "z", "x"), np.array([frame[name] for frame in found]), run[f"patch.{name}"].attrs if name in source else STATE)
         for name in found[0]
     }
     coordinates = {
