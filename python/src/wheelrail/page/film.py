@@ -31,12 +31,12 @@ def most_of(rows):
     return np.where(known, most, most[known].min() if known.any() else 0.0)
 
 
-def chosen(time, values, most=FRAMES):
-    """Indices of at most `most` rows, as dense in time as they were recorded, and those of the largest value of each quantity."""
-    if len(time) <= most:
+def chosen(time, values):
+    """Indices of at most `FRAMES` rows, as dense in time as they were recorded, and those of the largest value of each quantity."""
+    if len(time) <= FRAMES:
         return np.arange(len(time))
     peaks = {int(np.argmax(most_of(np.abs(v)))) for v in values if np.isfinite(v).any()}
-    even = np.linspace(0, len(time) - 1, most - len(peaks)).round().astype(int)
+    even = np.linspace(0, len(time) - 1, FRAMES - len(peaks)).round().astype(int)
     return np.array(sorted(peaks | set(even.tolist())))
 
 
