@@ -20,14 +20,13 @@ import numpy as np
 
 from .output import beside, write_columns, write_rows
 from .records import made_of
-from .units import in_si
+from .units import ZERO_CELSIUS, in_si
 
 if TYPE_CHECKING:
     import xarray
 
     from .fmu import Wheel
 
-KELVIN = 273.15
 # Weight percent of a wheel steel within ER7 (EN 13262 allows 0.52 C), ASSUMED: that of the default of damage.martensite_start.
 STEEL = {"C": 0.50, "Mn": 0.75, "Cr": 0.25, "Si": 0.35, "Ni": 0.0}
 BAR = "{desc} [{elapsed}{postfix}]"
@@ -82,8 +81,8 @@ class Damage:
         state = "cold: the findings are final" if self.final else "still cooling: the findings may change"
         found = [
             ("state", state if self.flats else "no place was heated in one piece"),
-            ("hottest point of the tread", f"{self.hottest - KELVIN:.0f} °C"),
-            ("hottest point of the rail", f"{self.rail_peak - KELVIN:.0f} °C"),
+            ("hottest point of the tread", f"{self.hottest - ZERO_CELSIUS:.0f} °C"),
+            ("hottest point of the rail", f"{self.rail_peak - ZERO_CELSIUS:.0f} °C"),
             ("depth of the flat", f"{1e6 * self.flat_depth:.1f} µm"), ("length of the flat", f"{1e3 * self.flat_length:.1f} mm"),
             ("places heated in one piece", str(self.flats)),
         ]  # fmt: skip

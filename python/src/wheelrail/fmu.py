@@ -205,7 +205,7 @@ class Wheel(Unique):
         self._free.atexit = False
         try:
             with self._calls, self._calls.lock:
-                self._calls(self.slave.setupExperiment, startTime=0.0)
+                self._calls(self.slave.setupExperiment)
                 # Other FMUs of this project, such as the coach, have no such choice.
                 given = {"initial.given": "written"} if "initial.given" in fmu.variables else {}
                 self._set(given | (parameters or {}))

@@ -21,6 +21,7 @@ from . import output
 from .instances import BUFFERS
 from .origin import settings
 from .tables import BadFile
+from .units import ZERO_CELSIUS
 from .values import Refused, first_line, kind, short
 
 if TYPE_CHECKING:
@@ -218,7 +219,7 @@ def celsius(record: Record) -> Record:
     """A Dataset or DataArray with temperatures in °C in the place of K."""
 
     def shown(values):
-        return (values - 273.15).assign_attrs(values.attrs, units="°C") if values.attrs.get("units") == "K" else values
+        return (values - ZERO_CELSIUS).assign_attrs(values.attrs, units="°C") if values.attrs.get("units") == "K" else values
 
     if hasattr(record, "data_vars"):
         return record.assign({name: shown(values) for name, values in record.data_vars.items()})

@@ -213,7 +213,7 @@ class Stop:
         of = lambda k: f", coach {k + 1}," if self.coach.count > 1 else ""
         with fresh_modules():
             self.brakes = [Brakes(scenario.brake, [scenario.speed] * AXLES, of(k)) for k in range(self.coach.count)]
-            self.driver = OwnDriver(scenario.driver, scenario, scenario.driver_parameters) if scenario.driver else None
+            self.driver = OwnDriver(scenario.driver, (scenario,), scenario.driver_parameters) if scenario.driver else None
         ahead = self.coach.axle_positions - self.coach.axle_positions[0]
         rail = scenarios.rail_map(scenario.track, -ahead[-1], self.axles, dry)
         wheelsets, told = wheelsets_of(fmu, scenario, self.coach)
@@ -238,9 +238,8 @@ class Stop:
 
     def _weak(self):
         """Words about a brake that is none."""
-        vehicle, brake = self.scenario.vehicle, self.scenario.brake
-        mass = vehicle.body.mass + vehicle.body.payload + 2 * vehicle.bogie.mass + AXLES * vehicle.wheelset.mass
-        slows = AXLES * brake.torque / (self.radius * mass)
+        brake = self.scenario.brake
+        slows = AXLES * brake.torque / (self.radius * self.coach.mass)
         weak = f"; the brake slows it by {slows:.2g} m/s2 at most: is torque = {brake.torque:g} N m in {self.scenario.paths['brake']} meant?"
         return weak if slows < WEAK else ""
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from . import above
 from .charts import rounded
-from .units import CELSIUS, KELVIN, KMH, PERCENT, shown
+from .units import CELSIUS, KMH, PERCENT, shown
 
 FRAMES = 400  # instants of the film at most
 STICKS = 1e-6  # m/s: a place that slips less sticks
@@ -143,6 +143,6 @@ def fields(run):
         deep = min(len(field.depth), int(warm[-1]) + 2 if len(warm) else len(field.depth))
         found.append({
             "title": BELOW.get(name) or field.meaning or name.replace("_", " ").capitalize(), "note": "", "time": rounded(field.time[kept], 7),
-            "depth": rounded(1e3 * field.depth[:deep], 5), "values": _rows(values[:, :deep].T - KELVIN),
+            "depth": rounded(1e3 * field.depth[:deep], 5), "values": _rows(CELSIUS(values[:, :deep].T)),
         })  # fmt: skip
     return found

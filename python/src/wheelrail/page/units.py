@@ -2,7 +2,8 @@
 
 import numpy as np
 
-KELVIN = 273.15  # K at 0 °C
+from ..units import ZERO_CELSIUS
+
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 # Unit in SI: (from this size on, label, factor), the largest first.
@@ -39,7 +40,7 @@ class Shown:
         return text if text == "–" else f"{text} {self.label}".strip()
 
 
-PERCENT, KMH, CELSIUS = Shown("%", 100.0), Shown("km/h", 3.6), Shown("°C", 1.0, -KELVIN)
+PERCENT, KMH, CELSIUS = Shown("%", 100.0), Shown("km/h", 3.6), Shown("°C", 1.0, -ZERO_CELSIUS)
 
 
 def shown(unit, *arrays):
