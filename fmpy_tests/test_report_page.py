@@ -3,14 +3,13 @@
 import csv
 import shutil
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from wheelrail import Wheel, page, report, scenario, simulate, train
+from wheelrail import Wheel, grid, page, report, scenario, simulate, train
 from wheelrail.__main__ import main
-from wheelrail.page import above, balance, charts, film, html, sources, stops, units
+from wheelrail.page import balance, charts, film, html, sources, stops, units
 from wheelrail.page.run import Profiles, of_dataset, of_table
 
 LOW_ADHESION = Path(__file__).parent.parent / "examples" / "train" / "low_adhesion.json"
@@ -534,6 +533,4 @@ def test_the_page_of_stops_changes_from_stop_to_stop_and_fits_a_telephone(stoppe
 def test_a_patch_whose_positions_begin_far_from_zero_is_as_wide_as_it_is():
     """As from a table of rows that counts from the middle of the track."""
     width, position = 8e-3, 0.745 + np.array([[0.0, 2e-3, 5e-3]])
-    run = SimpleNamespace(time=np.array([0.0]), at=lambda name, time: np.array([width]))
-    edges = above._edges(run, position, run.time)[0]
-    assert edges == pytest.approx(0.745 + np.array([-1.25e-3, 1e-3, 3.5e-3, 6.75e-3]), abs=1e-12)
+    assert grid.edges(position, np.array([width]))[0] == pytest.approx(0.745 + np.array([-1.25e-3, 1e-3, 3.5e-3, 6.75e-3]), abs=1e-12)

@@ -51,7 +51,7 @@ def patch(run: xarray.Dataset, *, along: int = 81, across: int = 41) -> xarray.D
     run = in_si(run)
     source = {name: run[f"patch.{name}"].values for name in OF_PATCH if f"patch.{name}" in run}
     nodes, position, half = run["x"].values, run["line.position"].values, run["line.half_length"].values
-    side = _sides(run, position)
+    side = edges(position, run["contact.width"].values if "contact.width" in run else None)[:, [0, -1]]
     reach = MARGIN * max(float(np.max(half)), 2.0 * float(nodes[1] - nodes[0]))
     centre, width = float(np.mean(side)), MARGIN * 0.5 * float(np.max(side[:, 1] - side[:, 0]))
     x, z = np.linspace(-reach, reach, along), centre + np.linspace(-width, width, across)
@@ -71,15 +71,16 @@ def patch(run: xarray.Dataset, *, along: int = 81, across: int = 41) -> xarray.D
     return xarray.Dataset(data, coordinates, {"title": run.attrs.get("title", "")})
 
 
-def _sides(run: xarray.Dataset, position: np.ndarray) -> np.ndarray:
-    """Lateral ends of the patch over time [m], an array (time, 2): half of `contact.width` to both sides of its middle."""
-    middle = 0.5 * (position[:, :1] + position[:, -1:])
-    if "contact.width" in run:
-        half = 0.5 * run["contact.width"].values[:, None]
-    else:
-        step = np.diff(position, axis=1).mean(axis=1, keepdims=True) if position.shape[1] > 1 else np.full_like(middle, 1e-3)
-        half = 0.5 * (position[:, -1:] - position[:, :1] + step)
-    return np.hstack([middle - half, middle + half])
+def edges(position: np.ndarray, width: np.ndarray | None) -> np.ndarray:
+    """Where strips of lines at `position` (time, line) meet [m], an array (time, line + 1): half way between them. The outermost edges are
+    as far apart as the patch is wide, `width` over time [m], if that is known, else as far from their lines as the next ones."""
+    gaps = np.diff(position, axis=1) if position.shape[1] > 1 else np.zeros_like(position)
+    first, last = position[:, :1] - 0.5 * gaps[:, :1], position[:, -1:] + 0.5 * gaps[:, -1:]
+    if width is not None:
+        # Positions may begin anywhere, as those of a table of rows do.
+        beyond = 0.5 * (width[:, None] - (last - first))
+        first, last = np.minimum(first - beyond, position[:, :1]), np.maximum(last + beyond, position[:, -1:])
+    return np.hstack([first, position[:, :-1] + 0.5 * gaps, last])
 
 
 def laid(

@@ -2,15 +2,14 @@
 
 import numpy as np
 
+from ..grid import STICKS
 from . import above
 from .charts import rounded
-from .units import CELSIUS, KMH, PERCENT, shown
+from .units import CELSIUS, KMH, PERCENT, SHAPES, shown
 
 FRAMES = 400  # instants of the film at most
-STICKS = 1e-6  # m/s: a place that slips less sticks
 STRIKING = 50.0  # K: a rise on which the map of the patch begins zoomed
 STILL = 0.5  # K: a field that changes less is not drawn
-SHAPES = {"pressure": "Pa", "shear": "Pa", "slip": "m/s", "temperature_wheel": "K", "temperature_rail": "K"}
 # Titles of temperatures over the depth, in plain words.
 BELOW = {
     "temperature_wheel_below": "Wheel, below the contact", "temperature_rail_below": "Rail, below the contact",

@@ -23,6 +23,8 @@ SCALES = {
     "m3": ((0.0, "l", 1e3),),
 }
 PLAIN = {"m/s2": "m/s²", "rad/s2": "rad/s²", "kg.m2": "kg·m²", "1": "", "": "", "degC": "°C", "W/(m2.K)": "W/(m²·K)"}
+# Units of what varies over a patch; other quantities of it are states.
+SHAPES = {"pressure": "Pa", "shear": "Pa", "slip": "m/s", "temperature_wheel": "K", "temperature_rail": "K"}
 
 
 class Shown:
