@@ -1,7 +1,6 @@
 """What a stop consists of, as files: scenario, vehicle, brake, track. `load` reads and checks all of them, `changed` gives a copy
 with other values."""
 
-import difflib
 from bisect import bisect_right
 from copy import deepcopy
 from pathlib import Path
@@ -59,9 +58,7 @@ def field_of(path):
         return f"is no value but a group{meant(path, below) if below else ''}"
     if headed(path)[0] != path and not isinstance(field := field_of(headed(path)[0]), str):
         return f"has a unit in its name: write {headed(path)[0]!r}, and its values in {getattr(field, 'unit', '') or 'no unit'}"
-    close = difflib.get_close_matches(path, known, n=1)
-    all_of = "it is a key of the scenario, or vehicle, brake, track or wheel, a dot and a key of that file"
-    return f"is unknown; {f'did you mean {close[0]!r}?' if close else all_of}"
+    return "is unknown" + (nearest(path, known) or "; it is a key of the scenario, or vehicle, brake, track or wheel, a dot and a key of that file")
 
 
 def _of_section(names):
