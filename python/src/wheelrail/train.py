@@ -238,8 +238,9 @@ class Stop:
 
     def _weak(self):
         """Words about a brake that is none."""
-        brake = self.scenario.brake
-        slows = AXLES * brake.torque / (self.radius * self.coach.mass)
+        vehicle, brake = self.scenario.vehicle, self.scenario.brake
+        mass = vehicle.body.mass + vehicle.body.payload + 2 * vehicle.bogie.mass + AXLES * vehicle.wheelset.mass
+        slows = AXLES * brake.torque / (self.radius * mass)
         weak = f"; the brake slows it by {slows:.2g} m/s2 at most: is torque = {brake.torque:g} N m in {self.scenario.paths['brake']} meant?"
         return weak if slows < WEAK else ""
 
