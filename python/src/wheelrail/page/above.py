@@ -52,7 +52,8 @@ def _grid(run, time, at, between):
     rim = np.linspace(z[0], z[-1], FINER * (ACROSS - 1) + 1)
     sides = between[:, [0, -1]]
     frames = [laid(*_lines(run, at, k, t, reach), at["position"][k], half[k], sides[k], x, z, rim) for k, t in enumerate(time)]
-    names = [name for name in frames[0] if name != "rim" and (run.across is not None or name == "pressure")]
+    known = [name for name in frames[0] if name.removesuffix("_z") in (*SHAPES, "state")]
+    names = known if run.across is not None else ["pressure"]
     found = {name: _levels(name, np.array([frame[name] for frame in frames])) for name in names}
     ends = [[rounded(1e3 * frame["rim"][:, k], 4) for k in (0, 1)] for frame in frames]
     places = {"x": rounded(1e3 * x, 5), "z": rounded(1e3 * z, 5), "finer": FINER, "rim": ends}
