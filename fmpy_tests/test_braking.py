@@ -50,29 +50,6 @@ def test_brake_beyond_adhesion_locks_the_wheel_and_slides_to_rest(start):
     assert abs(column(table, "solver.energy_residual")[-1]) < 0.01
 
 
-def test_the_brake_of_the_fmu_needs_no_logic_in_the_master(start):
-    """A torque beyond adhesion locks the wheel, holds it after the stop and lets it go under a driving force."""
-    wheel = start(COARSE | {"initial.velocity": 2.0})
-    names = ("wheel.velocity", "wheel.omega", "brake.torque_actual", "hub.moment", "brake.power", "energy.brake")
-    wheel.set({"brake.torque": 2.0 * MOMENT})
-    energy, locked = 0.0, []
-    while wheel.time < 1.5:
-        wheel.step(1e-3)
-        velocity, omega, actual, moment, power, taken = wheel.get(*names)
-        energy += 1e-3 * power
-        locked.append(wheel.get("brake.locked"))
-        assert moment == actual and (omega == 0.0 or not locked[-1])
-    first = locked.index(True)
-    assert all(locked[first:]) and first > 5
-    assert abs(velocity) < 0.05 and energy == pytest.approx(taken, rel=1e-9)
-    assert abs(wheel.get("solver.energy_residual")) < 0.01
-    rolling = wheel.get("vehicle.mass") + wheel.get("wheel.mass") + wheel.get("wheel.inertia") / 0.46**2
-    wheel.set({"brake.torque": 0.0, "drive.force": 5e3})
-    while wheel.time < 3.5 - 1e-9:
-        wheel.step(1e-3)
-    assert wheel.get("wheel.velocity") == pytest.approx(5e3 * 2.0 / rolling, abs=0.02)
-
-
 def test_a_wheel_that_locks_on_leaves_is_released_and_its_picture_is_legible(fmu, start, tmp_path):
     """At a width of 800 px, as README shows it, the smallest type is 11 px high."""
     from matplotlib.text import Text

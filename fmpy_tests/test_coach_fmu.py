@@ -15,9 +15,9 @@ from fmpy.validation import validate_fmu
 
 from conftest import ROOT
 from wheelrail import Fmu, Wheel, scenario, ssp
-from wheelrail.brake import Valve
-from wheelrail.parallel import HeldCoach
-from wheelrail.vehicle import AXLES
+from wheelrail.brake import Brakes, Valve
+from wheelrail.train import predicted
+from wheelrail.vehicle import AXLES, Coach
 
 STEP, END = 5e-3, 24.0  # s
 TIMES = STEP * np.arange(round(END / STEP))
@@ -75,6 +75,34 @@ def wheelsets(stop, time):
         torque = -3.0e3 * (1.0 + 0.1 * np.cos(time + axle)) if velocity > 0.0 else 0.0
         seen.append(SimpleNamespace(position=position, velocity=velocity, omega=omega, force=force, torque=torque))
     return seen
+
+
+class HeldCoach:
+    """The coach of a scenario for a master that holds forces, made of the parts of the package: what `coach.fmu` computes."""
+
+    def __init__(self, scenario):
+        self.scenario, self.vehicle = scenario, Coach(scenario.vehicle)
+        self.vehicle.start(scenario.speed)
+        self.brakes = Brakes(scenario.brake, [scenario.speed] * AXLES)
+
+    def step(self, h, seen, demand):
+        """Moves on by `h` [s]; returns what each wheelset gets in the next step, by name of the wheel's input. `seen` are the
+        wheelsets at the beginning of the step, `None` in the first one."""
+        vehicle, speed, wheelset = self.vehicle, self.scenario.speed, self.scenario.vehicle.wheelset
+        omegas, reaction = [speed / wheelset.radius] * AXLES, [0.0] * AXLES
+        masses, others = np.full(AXLES, float(wheelset.mass)), np.zeros(AXLES)
+        if seen:
+            vehicle.correct([w.position for w in seen], [w.velocity for w in seen])
+            omegas, reaction = [w.omega for w in seen], [w.torque for w in seen]
+            masses, others = predicted(h, wheelset, seen, vehicle.forces()[0], [w.force for w in seen])
+        torques, _ = self.brakes.step(h, demand, [wheelset.radius * omega for omega in omegas])
+        now = vehicle.advance(h, reaction, 0.0, masses, others)
+        present = vehicle.position, vehicle.velocity
+        then = vehicle.advance(h, reaction, 0.0, masses, others)
+        vehicle.position, vehicle.velocity = present
+        pulls, loads = (0.5 * (a + b) for a, b in zip(now, then))
+        names = ("drive.force", "drive.load_change", "brake.torque")
+        return [dict(zip(names, values)) for values in zip(pulls, loads - vehicle.static_load, torques)]
 
 
 @functools.cache

@@ -18,7 +18,6 @@ from wheelrail.instances import loaded
 
 SIGNATURES = ROOT / "slave" / "src" / "c_abi" / "v3" / "export.rs"
 HEADER = Path(fmpy.__file__).parent / "c-code" / "fmi3FunctionTypes.h"
-TYPES = {"Real": "Float64", "Integer": "Int32"}  # where FMI 3.0 calls a type otherwise
 STEP = 1e-3  # s
 
 

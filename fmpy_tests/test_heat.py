@@ -96,3 +96,16 @@ def test_heat_that_is_not_a_number_is_refused_and_the_run_goes_on(start):
         wheel.set({"drive.tread_heat": math.nan})
     wheel.step(1e-3)
     assert wheel.get("temperature.wheel_max") > 0.0
+
+
+def test_a_temperature_that_is_computed_only_when_read_has_derivatives_by_inputs_and_in_time(start):
+    wheel = start({"initial.velocity": 20.0}, {"control.rotation": "velocity", "drive.omega": 42.0})
+    wheel.step(1e-3)
+    name = "profile.temperature_wheel_below[1]"
+    slopes = wheel.derivatives([name, "temperature.wheel_nominal"], {"drive.omega": 1.0})
+    assert slopes[0] == pytest.approx(slopes[1], rel=1e-6) and slopes[0] != 0.0
+    before = wheel.get(name)
+    wheel.set({"brake.torque": 5000.0, "rail.temperature": 320.0})
+    wheel.step(1e-3)
+    (rate,) = wheel._calls(wheel.slave.getRealOutputDerivatives, [wheel.fmu.variable(name).valueReference], [1])
+    assert float(rate) == pytest.approx((wheel.get(name) - before) / 1e-3, rel=1e-9) and rate != 0.0

@@ -150,29 +150,3 @@ def test_every_master_reaches_the_presets(unit, master):
     expected = in_steps(unit, start, moments)
     assert expected[-1, OUTPUTS.index("wheel.omega")] == pytest.approx(10.0 / 0.5, rel=1e-2)
     assert_same(master(unit, start, moments), expected)
-
-
-def declared(description, causality):
-    """Declared start values of parameters or inputs."""
-    starts = {"Real": float, "Integer": int, "Boolean": lambda text: text == "true", "String": str}
-    mine = (variable for variable in description.modelVariables if variable.causality == causality)
-    return {variable.name: starts.get(variable.type, int)(variable.start) for variable in mine}
-
-
-@pytest.mark.parametrize("load", [None, 60e3])
-def test_a_master_that_sets_every_start_value_computes_the_same_bits(unit, load):
-    """FMI knows no variable that is not set, and many tools write back all start values: of parameters, of inputs, of both. Tools
-    change what their user changes: here the moment from the first step on, and the nominal load, which the load follows."""
-    parameters, inputs = (declared(unit.description, causality) for causality in ("parameter", "input"))
-    assert len(parameters) > 90 and len(inputs) > 15
-    own = {"drive.moment": -6000.0} | ({"model.nominal_load": load} if load else {})
-    results = [
-        fmpy.simulate_fmu(
-            unit.directory, stop_time=20 * STEP, output_interval=STEP, start_values=written | own, output=OUTPUTS
-        )
-        for written in ({}, parameters, inputs, parameters | inputs)
-    ]
-    for result in results[1:]:
-        assert result.tobytes() == results[0].tobytes()
-    assert results[0]["contact.force_y"][0] == pytest.approx(load or 100e3, rel=1e-9)
-    assert results[0]["contact.force_x"][-1] == pytest.approx(-12.9e3, rel=5e-3)

@@ -10,19 +10,6 @@ from wheelrail.files import BadFile
 from wheelrail.wheelset import LAW, WITHOUT_EFFECT, FrictionLaw
 
 
-def test_an_item_that_is_none_is_refused_with_those_that_are(start):
-    with pytest.raises(Refused, match="control.rotation = 'omega' is none of velocity, moment"):
-        start().set({"control.rotation": "omega"})
-
-
-def test_a_profile_that_is_none_is_refused_with_those_that_are(start):
-    wheel = start()
-    with pytest.raises(Refused, match="no profile 'presure'; it has x, pressure, shear, slip, shear_z, slip_z, temperature_wheel"):
-        wheel.profile("presure")
-    for name in wheel.fmu.profiles():
-        assert len(wheel.profile(name)) > 10
-
-
 def test_all_that_is_set_from_python_counts_zero_creepage_too(start):
     settings = {"initial.creepage": 0.0, "model.nominal_load": 90e3}
     wheel = start(settings, {"drive.load": 100e3})

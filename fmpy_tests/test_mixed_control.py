@@ -95,18 +95,6 @@ def test_switching_from_force_to_motion_makes_no_jump(start, switched):
             assert value == pytest.approx(reference, abs=tolerance), f"{name}, step {k} after the switch"
 
 
-def test_switching_back_to_force_makes_no_jump(start, steady):
-    wheel = start(STATE, {**KINEMATIC, "drive.velocity": V, "drive.omega": OMEGA})
-    for _ in range(20):
-        wheel.step(1e-3)
-    before = wheel.get("contact.force_x", "wheel.velocity", "wheel.omega")
-    wheel.set({"drive.moment": steady["hub.moment"], "drive.force": steady["hub.force_x"]})
-    wheel.set({"control.rotation": "moment", "control.translation": "force"})
-    for _ in range(20):
-        wheel.step(1e-3)
-        assert wheel.get("contact.force_x", "wheel.velocity", "wheel.omega") == pytest.approx(before, rel=1e-4)
-
-
 @pytest.mark.parametrize("vertical", ["force", "displacement"])
 def test_a_partner_that_was_never_set_starts_from_its_present_value(start, vertical):
     wheel = start(STATE, KINEMATIC)

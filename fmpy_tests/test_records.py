@@ -98,12 +98,6 @@ def test_inputs_are_constants_samples_series_and_functions(fmu):
     assert json.loads(run.attrs["inputs"])["rail.slope"] == 0.01
 
 
-def test_the_last_instant_is_recorded_once_and_is_the_end_of_the_run(fmu):
-    """9 steps of a millisecond add up to a little more than 9 ms."""
-    run = wheelrail.simulate({"thermal.enabled": False}, stop=0.009, outputs="wheel.velocity", fmu=fmu, progress=False)
-    assert run.sizes["time"] == 10 and (np.diff(run["time"]) > 0.0).all() and float(run["time"][-1]) == 0.009
-
-
 def test_warnings_of_steps_that_are_taken_back_go_with_them(start):
     wheel = start({"initial.velocity": 20.0})
     saved = wheel.save()

@@ -3,14 +3,13 @@
 import csv
 import shutil
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from wheelrail import Wheel, page, report, scenario, simulate, train
+from wheelrail import Wheel, grid, page, report, scenario, simulate, train
 from wheelrail.__main__ import main
-from wheelrail.page import above, balance, charts, film, html, sources, stops, units
+from wheelrail.page import balance, charts, film, html, sources, stops, units
 from wheelrail.page.run import Profiles, of_dataset, of_table
 
 LOW_ADHESION = Path(__file__).parent.parent / "examples" / "train" / "low_adhesion.json"
@@ -152,16 +151,6 @@ def test_a_run_without_heat_has_no_temperatures_and_one_without_friction_never_s
     assert set(cold.series) == set(names) - {"temperature.wheel_max"}
     shown = film.of_run(cold)
     assert set(shown["units"]) == {"pressure", "shear", "slip"} and set(np.unique(shown["state"])) == {0, 2}
-
-
-def test_guessed_units_are_those_of_the_fmu(fmu):
-    described = {
-        v.name: v.unit or (v.declaredType.unit if v.declaredType is not None else None) or ""
-        for v in fmu.description.modelVariables if v.causality == "output" and v.type == "Real" and "[" not in v.name
-    }  # fmt: skip
-    wrong = {name: (unit, sources.guessed(name)) for name, unit in described.items() if sources.guessed(name) not in ("", unit)}
-    assert not wrong
-    assert sum(sources.guessed(name) == unit != "" for name, unit in described.items()) > 55
 
 
 def test_a_csv_with_or_without_units_gives_the_curves_of_the_run(run, packed, tmp_path):
@@ -375,15 +364,16 @@ def test_results_of_a_train_are_read_from_their_directory(stopped, tmp_path):
     (tmp_path / "other.csv").write_text("a,b\n1,2\n")
     read = sources.read(tmp_path)
     assert list(read) == ["dry", "wsp on"]
-    mine = {name: stops.of_table(table) for name, (table, _) in stopped.items()}
+    mine = {name: table for name, (table, _) in stopped.items()}
+    assert not stops.recognised(["time", "speed", "peripheral_1"])
     # But for the last one, half a second whose first sample comes or goes with the digits of a CSV.
     assert stops.figures(read)[1:-1] == stops.figures(mine)[1:-1]
     assert stops.figures(mine)[1][1:] == [
         units.number(report.figures(table)["stopping distance"][0]) for table, _ in stopped.values()
     ]
-    celsius = stops.of_columns({"contact_celsius_1": (None, np.array([20.0, np.nan])), "speed": (None, np.zeros(2))})
-    assert celsius.columns["hottest_1"].tolist() == [293.15, 0.0] and celsius.columns["speed"].tolist() == [0.0, 0.0]
-    titles = [c["title"] for c in stops.charts(read["wsp on"])]
+    given = {name: (None, np.zeros(2)) for name in report.columns()} | {"contact_celsius_1": (None, np.array([20.0, np.nan]))}
+    assert report.column(stops.of_columns(given), "hottest", 0).tolist() == [293.15, 0.0]
+    titles = [c["title"] for c in stops.charts(read["wsp on"], read.values())]
     assert titles[:4] == ["Speed of travel and of the treads", "Slide", "Pressure in the cylinders", "Adhesion used"]
 
 
@@ -528,7 +518,7 @@ def test_the_page_of_stops_changes_from_stop_to_stop_and_fits_a_telephone(stoppe
     seen = {}
     for name in stopped:
         tab.check(f"input[name=view][value='{name}']")
-        expected = next(t for t in stops.charts(stops.of_table(stopped[name][0]))[0]["traces"] if t["name"] == "axle 1")["y"]
+        expected = next(t for t in stops.charts(stopped[name][0], [table for table, _ in stopped.values()])[0]["traces"] if t["name"] == "axle 1")["y"]
         tab.wait_for_function("(n) => document.querySelector('#charts .plot').data[1].y.length === n", arg=len(expected))
         seen[name] = tab.evaluate(slide)
         assert seen[name] == expected
@@ -543,6 +533,4 @@ def test_the_page_of_stops_changes_from_stop_to_stop_and_fits_a_telephone(stoppe
 def test_a_patch_whose_positions_begin_far_from_zero_is_as_wide_as_it_is():
     """As from a table of rows that counts from the middle of the track."""
     width, position = 8e-3, 0.745 + np.array([[0.0, 2e-3, 5e-3]])
-    run = SimpleNamespace(time=np.array([0.0]), at=lambda name, time: np.array([width]))
-    edges = above._edges(run, position, run.time)[0]
-    assert edges == pytest.approx(0.745 + np.array([-1.25e-3, 1e-3, 3.5e-3, 6.75e-3]), abs=1e-12)
+    assert grid.edges(position, np.array([width]))[0] == pytest.approx(0.745 + np.array([-1.25e-3, 1e-3, 3.5e-3, 6.75e-3]), abs=1e-12)

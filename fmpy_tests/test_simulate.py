@@ -81,7 +81,7 @@ def test_the_summary_is_on_the_error_stream_and_the_default_outputs_on_the_other
     "text, words",
     [
         ("drive.load\n1\n", "column 'time' is missing"),
-        ("time,drive.lod\n0,1\n", "did you mean 'drive.load'?"),
+        ("time,drive.lod\n0,1\n", "did you mean drive.load?"),
         ("time,contact.force_x\n0,1\n", "unknown column 'contact.force_x'"),
         ("time,drive.load\n0,1\n2,1\n1,1\n", ":4: time = 1 s follows 2 s"),
         ("time,drive.load\n0,1e5\n1,-5\n", ":3: drive.load = -5 N is outside 0 to 1e+09 N"),

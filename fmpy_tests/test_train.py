@@ -117,12 +117,6 @@ def test_a_coach_in_the_fmu_stops_with_a_rigid_one_behind_it_as_both_rigid_ones_
     assert -np.trapezoid(force, report.column(mixed, "time")) == pytest.approx(lost, rel=0.01)
 
 
-def test_an_unknown_parameter_of_the_wheel_is_named(coach, fmu):
-    coach.wheel["friction.faling_ratio"] = 0.5
-    with pytest.raises(Refused, match="no variable friction.faling_ratio; did you mean friction.falling_ratio?"):
-        Stop(coach, fmu)
-
-
 def test_wheels_in_the_fmu_follow_the_height_profile_of_the_rail(coach, fmu):
     coach.speed, coach.demand, coach.step = 20.0, 0.0, 0.005
     coach.track.profile = SimpleNamespace(position=[0.0, 1.0, 2.0], elevation=[0.0, 1e-3, 1e-3])

@@ -14,7 +14,7 @@ TRAIN = Path(__file__).parent.parent / "examples" / "train"
 BAD = [
     ("coach.json", '"mass": 32000', '"mass": -32000', r"coach.json:\d+: body.mass = -32000 kg is outside 100 to 1e\+06 kg"),
     ("coach.json", '"mass": 2615', '"mass": "heavy"', r"coach.json:\d+: bogie.mass is 'heavy', not a number"),
-    ("coach.json", '"axle_half_distance"', '"axel_half_distance"', "axel_half_distance is unknown; did you mean 'axle_half"),
+    ("coach.json", '"axle_half_distance"', '"axel_half_distance"', "axel_half_distance is unknown; did you mean axle_half"),
     ("coach.json", '"bogie_half_distance": 9.5,', "", "bogie_half_distance is missing .between bogie centre"),
     ("coach.json", '"bogie_half_distance": 9.5,', '"bogie_half_distance": 9.5', r"coach.json:\d+: not JSON"),
     ("coach.json", '"height": 1.8', '"height": NaN', "NaN is not a number"),
@@ -28,7 +28,7 @@ BAD = [
     ("low_adhesion.json", '"speed": 38.8889', '"speed": 388', r"low_adhesion.json:\d+: speed = 388 m/s is outside 0.5 to 60"),
     ("low_adhesion.json", '"coach.json"', '"couch.json"', "couch.json: cannot be read"),
     ("low_adhesion.json", '"hold": 2.0', '"coaches": 2, "fmu_coaches": [3]', "fmu_coaches entry = 3 is outside 1 to 2, the number"),
-    ("leaves.csv", "position,condition", "positon,condition", "leaves.csv:1: unknown column 'positon'; did you mean 'pos"),
+    ("leaves.csv", "position,condition", "positon,condition", "leaves.csv:1: unknown column 'positon'; did you mean pos"),
     ("leaves.csv", ",condition", "", "leaves.csv:1: column 'condition' is missing"),
     ("leaves.csv", "400,wet", "400,icy", "leaves.csv:3: condition 'icy' is none of dry, wet, contaminated"),
     ("leaves.csv", "400,wet", "-400,wet", "leaves.csv:3: position -400 m is not beyond 0 m"),

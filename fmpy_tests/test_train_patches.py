@@ -103,7 +103,7 @@ def test_values_of_sections_are_numbers_of_a_sweep():
     assert scenario.slope(other.track, behind + 1.0) == pytest.approx(-0.006)
     for path, value, words in (
         (f"track.sections.{count + 1}.slope", 0.0, f"the track has {count} sections"),
-        ("track.sections.2.slop", 0.0, "is no column of the sections; did you mean 'slope'"),
+        ("track.sections.2.slop", 0.0, "is no column of the sections; did you mean slope"),
         ("track.sections.0.slope", 0.0, "is no value of a section"),
         ("track.sections.2", 0.0, "is no value of a section"),
         ("track.sections.1.condition", "icy", "'icy' is none of"),

@@ -11,7 +11,7 @@ import pint
 import pytest
 
 import wheelrail
-from wheelrail import Refused, analysis, page, scenario
+from wheelrail import Refused, analysis, page, report, scenario
 from wheelrail.courses import courses_of
 from wheelrail.page import charts, sources
 from wheelrail.page.run import of_dataset
@@ -301,9 +301,10 @@ def test_columns_of_files_of_results_may_be_in_any_unit(tmp_path, packed):
     for reader in (lambda: sources.read(wrong, packed), lambda: analysis.read_columns(wrong, ("time", "wheel.velocity"))):
         with pytest.raises(BadFile, match="wheel.velocity is in 'kN': expected m/s"):
             reader()
-    stop = written(tmp_path / "stop.csv", ["time", "speed [km/h]", "peripheral_1", "contact_celsius_1 [K]"], [[0, 36, 9, 400], [1, 18, 5, 410]])
-    (found,) = sources.read(stop).values()
-    assert list(found.columns["speed"]) == [10.0, 5.0] and list(found.columns["hottest_1"]) == [400.0, 410.0]
+    names, units = report.columns(), {"speed": "speed [km/h]", "hottest_1": "contact_celsius_1 [K]"}
+    rows = [[{"time": k, "speed": 36 - 18 * k, "hottest_1": 400 + 10 * k}.get(name, 1) for name in names] for k in range(2)]
+    (found,) = sources.read(written(tmp_path / "stop.csv", [units.get(name, name) for name in names], rows)).values()
+    assert list(report.column(found, "speed")) == [10.0, 5.0] and list(report.column(found, "hottest", 0)) == [400.0, 410.0]
     if page.drawable():
         assert page.of_file(file, tmp_path / "run.html", packed).is_file()
 

@@ -85,13 +85,6 @@ def test_generation_tool_has_a_semantic_version(fmu):
     assert re.fullmatch(r"wheelrail \d+\.\d+\.\d+(-[0-9A-Za-z.-]+)?", fmu.description.generationTool)
 
 
-def test_every_variable_is_described_and_every_real_has_a_unit(fmu):
-    for variable in fmu.description.modelVariables:
-        assert variable.description, variable.name
-        if variable.type == "Real":
-            assert variable.unit or (variable.declaredType and variable.declaredType.unit), variable.name
-
-
 def test_readme_snippet_simulates(packed):
     start = {"initial.velocity": 20.0, "drive.moment": -5000.0}
     outputs = ["wheel.velocity", "contact.creepage"]

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from . import signals, surfaces, units
+from .fmu import known_unit
 from .output import beside, write_columns, write_rows
-from .page.units import guessed
 from .tables import BadFile, headings_of, number_in, read_table
 from .units import UnitError, converted, headed, named
 
@@ -94,12 +94,12 @@ def told(column, options):
 
 def unit_of(name):
     """SI unit of a variable of the FMU by its name, or what to take for it."""
-    return KNOWN.get(name) or guessed(name) or f"unit of {name}"
+    return KNOWN.get(name) or known_unit(name) or f"unit of {name}"
 
 
 def _in_si(name, values, unit):
     """Values of a column in SI units; where neither its name nor its unit says these, as they are."""
-    expected = KNOWN.get(name) or guessed(name)
+    expected = KNOWN.get(name) or known_unit(name)
     if unit is None or expected:
         return converted(name, values, unit, expected)
     try:
@@ -178,7 +178,7 @@ def _octaves(options):
         # A file of one whole period may repeat its first place at the end.
         if len(values) > 3 and np.isclose(values[0], values[-1], rtol=1e-9, atol=0.0):
             over, values = over[:-1], values[:-1]
-    frequency, level = signals.octaves(over, values, reference, "none" if options.periodic else "hann")
+    frequency, level = signals.octaves(over, values, reference, "boxcar" if options.periodic else "hann")
     if profile:
         limit = [surfaces.EN_ISO_3095.get(round(-10.0 * np.log10(f)), np.nan) for f in frequency]
         lines = [f"{'wavelength [m]':>14s} {'level [dB]':>12s} {'EN ISO 3095':>12s}"]

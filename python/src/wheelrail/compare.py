@@ -31,16 +31,16 @@ def variants(scenario: SimpleNamespace) -> dict[str, tuple[SimpleNamespace, floa
     return {DRY: (protected, scenario.dry), PROTECTED: (protected, None), UNPROTECTED: (unprotected, None)}
 
 
-def stop(name: str, scenario: SimpleNamespace, dry: float | None, path: Path | None, news: Any = None) -> tuple[str, np.ndarray, RailMap]:
+def stop(name: str, scenario: SimpleNamespace, dry: float | None, path: Path | None, news: Any) -> tuple[str, np.ndarray, RailMap]:
     """One stop: name, its table and its rail. `path` of the FMU, or None for rigid wheelsets; `news` is a queue that gets
     (name, share done) about a hundred times, and (name, warnings), which are not said then."""
-    with Fmu(path) if path else nullcontext() as fmu, collected() if news is not None else nullcontext() as texts:
+    with Fmu(path) if path else nullcontext() as fmu, collected() as texts:
         told = 0
 
         def tell(run):
             nonlocal told
             done = int(100 * (1.0 - max(run.coach.speed(), 0.0) / scenario.speed))
-            if news is not None and done > told:
+            if done > told:
                 told = done
                 news.put((name, done))
 
@@ -50,8 +50,7 @@ def stop(name: str, scenario: SimpleNamespace, dry: float | None, path: Path | N
         finally:
             if texts:
                 news.put((name, texts))
-    if news is not None:
-        news.put((name, 100))
+    news.put((name, 100))
     return name, table, run.contacts.rail
 
 

@@ -1,10 +1,11 @@
 """Command line: a parser that says what was meant, and what a shell needs to complete commands and options."""
 
 import argparse
-import difflib
 import re
 from pathlib import Path
 from typing import NoReturn
+
+from .tables import nearest
 
 SHELLS = ("bash", "zsh", "fish")
 
@@ -30,8 +31,7 @@ def meant(message: str, parser: Parser) -> str:
         known, word = options_of(parser).get(parser.wanted, ()), options[1].split()[0].partition("=")[0]
     else:
         return ""
-    near = difflib.get_close_matches(word, [str(name) for name in known], n=1, cutoff=0.7)
-    return f"; did you mean {near[0]}?" if near else ""
+    return nearest(word, map(str, known), likeness=0.7)
 
 
 def _called(action: argparse.Action) -> str:

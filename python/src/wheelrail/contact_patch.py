@@ -176,13 +176,12 @@ class Over(NamedTuple):
         return [rows(patch, limits) for patch, limits in zip(self.patches, cuts(self.shifts, self.patches, count))]
 
 
-def over(track: Track, shifts: np.ndarray, load: float, modulus: float, yaw: float = 0.0, tell: Callable[[float], None] | None = None) -> Over:
-    """Patches at shifts [m] under a load [N], `modulus` [Pa] as in `half_space.Tiles`; `yaw` [rad/m] turns the wheelset with the shift.
-    `tell` is called after each."""
+def over(track: Track, shifts: np.ndarray, load: float, modulus: float, tell: Callable[[float], None] | None = None) -> Over:
+    """Patches at shifts [m] under a load [N], `modulus` [Pa] as in `half_space.Tiles`; `tell` is called after each."""
     patches, rigid = [], []
     for shift in shifts:
         try:
-            pose = track.pose(shift, yaw * shift)
+            pose = track.pose(shift)
             patches.append(strips(track.side, pose, load, modulus))
         except EndOfProfile as error:
             raise EndOfProfile(f"at {1e3 * shift:g} mm {error}") from None

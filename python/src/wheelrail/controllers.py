@@ -150,9 +150,6 @@ class OwnSanding(Guard):
 class OwnDriver(Guard):
     """Guard of a `Driving`."""
 
-    def __init__(self, found, scenario, parameters):
-        super().__init__(found, (scenario,), parameters)
-
     def step(self, h, time, speed, travelled):
         """Demand, 0 to 1."""
         return self.number(self.ask(h, time, speed, travelled), 0.0, 1.0, "demand")

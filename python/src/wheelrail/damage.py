@@ -12,7 +12,6 @@ import json
 import sys
 from argparse import Namespace
 from collections.abc import Mapping
-from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,14 +20,13 @@ import numpy as np
 
 from .output import beside, write_columns, write_rows
 from .records import made_of
-from .units import in_si
+from .units import ZERO_CELSIUS, in_si
 
 if TYPE_CHECKING:
     import xarray
 
     from .fmu import Wheel
 
-KELVIN = 273.15
 # Weight percent of a wheel steel within ER7 (EN 13262 allows 0.52 C), ASSUMED: that of the default of damage.martensite_start.
 STEEL = {"C": 0.50, "Mn": 0.75, "Cr": 0.25, "Si": 0.35, "Ni": 0.0}
 BAR = "{desc} [{elapsed}{postfix}]"
@@ -83,8 +81,8 @@ class Damage:
         state = "cold: the findings are final" if self.final else "still cooling: the findings may change"
         found = [
             ("state", state if self.flats else "no place was heated in one piece"),
-            ("hottest point of the tread", f"{self.hottest - KELVIN:.0f} °C"),
-            ("hottest point of the rail", f"{self.rail_peak - KELVIN:.0f} °C"),
+            ("hottest point of the tread", f"{self.hottest - ZERO_CELSIUS:.0f} °C"),
+            ("hottest point of the rail", f"{self.rail_peak - ZERO_CELSIUS:.0f} °C"),
             ("depth of the flat", f"{1e6 * self.flat_depth:.1f} µm"), ("length of the flat", f"{1e3 * self.flat_length:.1f} mm"),
             ("places heated in one piece", str(self.flats)),
         ]  # fmt: skip
@@ -174,14 +172,13 @@ def settle(wheel: Wheel, *, step: float = 5e-3, longest: float = 120.0, progress
     from .progress import Bar, is_terminal
 
     begin = wheel.time
-    with Bar(desc="cooling", bar_format=BAR) if progress and is_terminal(sys.stderr) else nullcontext() as bar:
+    with Bar(desc="cooling", bar_format=BAR, disable=not (progress and is_terminal(sys.stderr))) as bar:
         while hot := wheel.get("damage.hot_places"):
             if wheel.time - begin > longest:
                 raise TimeoutError(f"{hot} places of the tread are still hot after {longest:g} s")
             wheel.step(step)
-            if bar:
-                bar.set_postfix_str(f"{wheel.time - begin:.2f} s rolled, {hot} places hot", refresh=False)
-                bar.update()
+            bar.set_postfix_str(f"{wheel.time - begin:.2f} s rolled, {hot} places hot", refresh=False)
+            bar.update()
     wheel.sample()
     return wheel.time - begin
 

@@ -1,6 +1,5 @@
 """Readable files with a schema: JSON and CSV in, values in attributes out, or an error with file, line, name and range."""
 
-import difflib
 import json
 import math
 import re
@@ -10,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
 
-from .tables import BadFile, number_in, read_table, text_of
+from .tables import BadFile, nearest, number_in, read_table, text_of
 from .units import UnitError, converted, headed, named, unit_of
 from .warn import warn
 
@@ -101,19 +100,15 @@ class Flag:
 
 @dataclass(frozen=True)
 class Setting:
-    """A number from `low` to `high`, a text or a flag: the value of a parameter, whose own type the FMU knows."""
+    """A number, a text or a flag: the value of a parameter, whose type and range the FMU knows."""
 
-    low: float
-    high: float
     about: str
     default: float | None = None
 
     def check(self, value):
         """What is wrong with the value."""
-        if isinstance(value, (str, bool)):
-            return None
-        number = isinstance(value, (int, float)) and math.isfinite(value)
-        return Real(self.low, self.high, "", self.about).check(value) if number else f"is {value!r}, no number, text or flag"
+        known = isinstance(value, str) or isinstance(value, (int, float)) and math.isfinite(value)
+        return None if known else f"is {value!r}, no number, text or flag"
 
 
 @dataclass(frozen=True)
@@ -352,8 +347,7 @@ def meant(name, known):
     base, unit = headed(name)
     if unit is not None and base in known:
         return f": write {base!r}, and its value in {getattr(known[base], 'unit', '') or 'no unit' if hasattr(known, 'items') else 'SI units'}"
-    close = difflib.get_close_matches(name, known, n=1)
-    return f"; did you mean {close[0]!r}?" if close else f"; known: {', '.join(known)}"
+    return nearest(name, known) or f"; known: {', '.join(known)}"
 
 
 def _entry(path, line, name, field, text, unit):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 from itertools import count
 from math import isclose
 from numbers import Real
@@ -64,6 +65,24 @@ def _unpacked(path):
 def _no_fmu(path, failure):
     """The refusal of a file that is no FMU."""
     return Refused(f"{path} is no FMU: {first_line(failure)}")
+
+
+@lru_cache(4)
+def _described(path, _changed):
+    """Variables by name of the FMU at a path, of which only the description is read."""
+    try:
+        return scalars(fmpy.read_model_description(path, validate=False))[0]
+    except Exception as failure:  # whatever zip, XML and fmpy say
+        raise _no_fmu(path, failure) from failure
+
+
+def known_unit(name: str, shown: bool = False) -> str:
+    """Unit of a variable by the description of the default FMU, or the one in which people read it; of a profile that of its points.
+    Empty where nothing says it, or where there is no such file."""
+    path = default_path()
+    variables = _described(path, path.stat().st_mtime_ns) if path.is_file() else {}
+    variable = variables.get(name) or variables.get(f"{name}[1]")
+    return (variable.displayUnit if shown else variable.unit) or "" if variable else ""
 
 
 class Fmu(Unique):
@@ -186,7 +205,7 @@ class Wheel(Unique):
         self._free.atexit = False
         try:
             with self._calls, self._calls.lock:
-                self._calls(self.slave.setupExperiment, startTime=0.0)
+                self._calls(self.slave.setupExperiment)
                 # Other FMUs of this project, such as the coach, have no such choice.
                 given = {"initial.given": "written"} if "initial.given" in fmu.variables else {}
                 self._set(given | (parameters or {}))

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy
 
-from .records import library
+from .records import OF_PATCH, library
 from .units import in_si
 
 if TYPE_CHECKING:
@@ -30,17 +30,7 @@ if TYPE_CHECKING:
 STICKS = 1e-6  # m/s: a place that slips less sticks
 SHAPE = np.linspace(-1.0, 1.0, 121)  # ξ of the shapes of lines
 MARGIN = 1.08  # of the grid over the largest patch
-MEANING = {
-    "pressure": ("Pa", "Contact pressure"),
-    "shear": ("Pa", "Shear traction on the wheel along the rail, positive in x"),
-    "shear_z": ("Pa", "Lateral shear traction on the wheel, to the right positive"),
-    "slip": ("m/s", "Slip velocity along the rail"),
-    "slip_z": ("m/s", "Lateral slip velocity, to the right positive"),
-    "state": ("1", "0 where nothing touches, 1 where the surfaces stick, 2 where they slip"),
-    "temperature_wheel": ("K", "Surface temperature of the wheel"),
-    "temperature_rail": ("K", "Surface temperature of the rail"),
-}
-QUANTITIES = tuple(name for name in MEANING if name != "state")
+STATE = {"units": "1", "long_name": "0 where nothing touches, 1 where the surfaces stick, 2 where they slip"}
 
 
 class NoPatch(ValueError):
@@ -59,9 +49,9 @@ def patch(run: xarray.Dataset, *, along: int = 81, across: int = 41) -> xarray.D
     if "patch.pressure" not in run or "line.position" not in run:
         raise NoPatch("the record has no patch: make it with patch=True")
     run = in_si(run)
-    source = {name: run[f"patch.{name}"].values for name in QUANTITIES if f"patch.{name}" in run}
+    source = {name: run[f"patch.{name}"].values for name in OF_PATCH if f"patch.{name}" in run}
     nodes, position, half = run["x"].values, run["line.position"].values, run["line.half_length"].values
-    side = _sides(run, position)
+    side = edges(position, run["contact.width"].values if "contact.width" in run else None)[:, [0, -1]]
     reach = MARGIN * max(float(np.max(half)), 2.0 * float(nodes[1] - nodes[0]))
     centre, width = float(np.mean(side)), MARGIN * 0.5 * float(np.max(side[:, 1] - side[:, 0]))
     x, z = np.linspace(-reach, reach, along), centre + np.linspace(-width, width, across)
@@ -70,7 +60,7 @@ def patch(run: xarray.Dataset, *, along: int = 81, across: int = 41) -> xarray.D
         for k in range(run.sizes["time"])
     ]
     data = {
-        name: (("time", "z", "x"), np.array([frame[name] for frame in found]), {"units": MEANING[name][0], "long_name": MEANING[name][1]})
+        name: (("time", "z", "x"), np.array([frame[name] for frame in found]), run[f"patch.{name}"].attrs if name in source else STATE)
         for name in found[0]
     }
     coordinates = {
@@ -81,15 +71,16 @@ def patch(run: xarray.Dataset, *, along: int = 81, across: int = 41) -> xarray.D
     return xarray.Dataset(data, coordinates, {"title": run.attrs.get("title", "")})
 
 
-def _sides(run: xarray.Dataset, position: np.ndarray) -> np.ndarray:
-    """Lateral ends of the patch over time [m], an array (time, 2): half of `contact.width` to both sides of its middle."""
-    middle = 0.5 * (position[:, :1] + position[:, -1:])
-    if "contact.width" in run:
-        half = 0.5 * run["contact.width"].values[:, None]
-    else:
-        step = np.diff(position, axis=1).mean(axis=1, keepdims=True) if position.shape[1] > 1 else np.full_like(middle, 1e-3)
-        half = 0.5 * (position[:, -1:] - position[:, :1] + step)
-    return np.hstack([middle - half, middle + half])
+def edges(position: np.ndarray, width: np.ndarray | None) -> np.ndarray:
+    """Where strips of lines at `position` (time, line) meet [m], an array (time, line + 1): half way between them. The outermost edges are
+    as far apart as the patch is wide, `width` over time [m], if that is known, else as far from their lines as the next ones."""
+    gaps = np.diff(position, axis=1) if position.shape[1] > 1 else np.zeros_like(position)
+    first, last = position[:, :1] - 0.5 * gaps[:, :1], position[:, -1:] + 0.5 * gaps[:, -1:]
+    if width is not None:
+        # Positions may begin anywhere, as those of a table of rows do.
+        beyond = 0.5 * (width[:, None] - (last - first))
+        first, last = np.minimum(first - beyond, position[:, :1]), np.maximum(last + beyond, position[:, -1:])
+    return np.hstack([first, position[:, :-1] + 0.5 * gaps, last])
 
 
 def laid(

@@ -39,12 +39,12 @@ class Tiles:
         spectrum = np.fft.rfft2(pressure, self.padded) * self.kernel
         return np.fft.irfft2(spectrum, self.padded)[: self.shape[0], : self.shape[1]]
 
-    def press(self, gap: np.ndarray, lean: np.ndarray, load: float, begin: np.ndarray | None = None) -> Pressed:
+    def press(self, gap: np.ndarray, lean: np.ndarray, load: float) -> Pressed:
         """Presses bodies with a `gap` [m] together until their pressures sum up to `load` [N]; `lean` [1] is the share of the approach
         that closes the gap at each column of tiles, the cosine of its angle to the direction of approach."""
         lean = np.broadcast_to(lean, self.shape)
         area = self.step[0] * self.step[1]
-        pressure = np.where(gap < np.quantile(gap, 0.3), 1.0, 0.0) if begin is None else begin
+        pressure = np.where(gap < np.quantile(gap, 0.3), 1.0, 0.0)
         pressure = pressure * load / (area * np.sum(pressure))
         force = area * np.sum(pressure * lean)
         for _ in range(6):  # the force in the direction of approach that belongs to the load

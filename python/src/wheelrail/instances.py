@@ -129,7 +129,7 @@ class Functions3(Owner):
 
     def __init__(self, fmu, name, calls):
         super().__init__(fmu, name, calls)
-        self.places, self.experiment, self._plans, self._rates = fmu.places, {}, {}, {}
+        self.places, self._plans, self._rates = fmu.places, {}, {}
 
     def start(self, log):
         """Makes the instance, whose messages go to the list `log`: as many as FMI 2.0 sends unasked."""
@@ -140,11 +140,8 @@ class Functions3(Owner):
         """The time up to which the FMU has simulated [s]."""
         return self.getFloat64([TIME])[0]
 
-    def setupExperiment(self, tolerance=None, startTime=0.0, stopTime=None):
-        self.experiment = {"tolerance": tolerance, "startTime": startTime, "stopTime": stopTime}
-
-    def enterInitializationMode(self):
-        super().enterInitializationMode(**self.experiment)
+    def setupExperiment(self):
+        """Nothing: FMI 3.0 has it in `enterInitializationMode`, whose experiment begins at 0 s, too, unless it is told otherwise."""
 
     def _plan(self, references):
         """The plan for elements of one type."""
@@ -194,13 +191,6 @@ class Functions3(Owner):
         finally:
             if ramped:
                 self.setReal(list(ramped), [0.0] * len(ramped))
-
-    def getRealOutputDerivatives(self, references, orders):
-        plan = self._plan(references)
-        rows, values = (c_uint * len(plan.rows))(*plan.rows), (c_double * plan.size)()
-        order = (c_int * len(plan.rows))(*[max(orders)] * len(plan.rows))
-        self.fmi3GetOutputDerivatives(self.component, rows, len(rows), order, values, plan.size)
-        return [values[k] for k in plan.picked]
 
     def getDirectionalDerivative(self, vUnknown_ref, vKnown_ref, dvKnown):
         plan = self._plan(vUnknown_ref)

@@ -54,10 +54,10 @@ def index(times: np.ndarray, names: list[str]) -> str:
     return HEAD.format(kind="Collection") + f"<Collection>\n{sets}</Collection>\n</VTKFile>\n"
 
 
-def export(run: xarray.Dataset, folder: str | Path, *, along: int = 81, across: int = 41) -> Path:
+def export(run: xarray.Dataset, folder: str | Path) -> Path:
     """Writes the patch of a record made with `patch=True` into a folder; returns the path of the index, `patch.pvd`."""
     folder, place = Path(folder), Path(folder).absolute()  # the process may go elsewhere meanwhile
-    grid = patch(run, along=along, across=across)
+    grid = patch(run)
     names = [f"patch_{k:05d}.vti" for k in range(grid.sizes["time"])]
     x, z = grid["x"].values, grid["z"].values
     for k, name in enumerate(names):

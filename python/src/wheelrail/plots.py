@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from .brake import Valve
 from .output import fresh
-from .report import CELSIUS, axles_of, column, slide
+from .report import axles_of, celsius, column, slide
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9")
 GREY = "#777777"
@@ -133,8 +133,7 @@ def _adhesion(axis, table):
 def _temperatures(axis, table):
     """Hottest point of the contact; rigid wheelsets have none."""
     if any(np.any(column(table, "hottest", k) > 0.0) for k in axles_of(table)):
-        celsius = lambda k: np.where(column(table, "hottest", k) > 0.0, column(table, "hottest", k) - CELSIUS, np.nan)
-        _per_axle(axis, table, celsius)
+        _per_axle(axis, table, lambda k: celsius(column(table, "hottest", k)))
     else:
         axis.text(0.5, 0.5, "rigid: not known", ha="center", va="center", transform=axis.transAxes, color=GREY)
     axis.set(ylabel="contact\n[°C]")

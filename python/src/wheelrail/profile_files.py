@@ -21,6 +21,7 @@ WIDE = {"wheel": (0.06, 0.2), "rail": (0.03, 0.2)}  # m, widths of the two
 UNITS = {"metres": 1.0, "millimetres": 1e-3, "inches": 0.0254}
 FLANGE, HEAD = 0.015, 0.004  # m, by which a flange reaches below a tread at least, and the sides of a head below its top
 CLOSE = 1e-7  # m, nearer points count as one
+SIDES = 0.0141  # m, below the top of a rail
 AWAY = 0.008  # slope, from which on a head leans
 STEEP = 1.7  # slope, from which on a profile may turn back: a side of a rail, the back of a flange
 TAPING = 0.07  # m, from the back of a flange to the taping circle
@@ -169,9 +170,9 @@ def _origin(kind, u, z, told):
     return Profile(u, z - np.interp(0.0, u, z), f"wheel: {len(u)} points; " + ", ".join(told))
 
 
-def lean(profile: Profile, depth: float = 0.0141) -> float:
-    """How a rail leans [1]: the slope of its head between places 3/4 of the way to its sides at a depth; to the middle of the track positive."""
-    above = profile.u[profile.z > -depth]
+def lean(profile: Profile) -> float:
+    """How a rail leans [1]: the slope of its head between places 3/4 of the way to its sides at `SIDES`; to the middle of the track positive."""
+    above = profile.u[profile.z > -SIDES]
     middle, half = 0.5 * (above[0] + above[-1]), 0.15 * (above[-1] - above[0])
     low, high = np.interp([middle - half, middle + half], profile.u, profile.z)
     return float((high - low) / (2.0 * half))

@@ -21,6 +21,7 @@ from . import output
 from .instances import BUFFERS
 from .origin import settings
 from .tables import BadFile
+from .units import ZERO_CELSIUS
 from .values import Refused, first_line, kind, short
 
 if TYPE_CHECKING:
@@ -153,12 +154,10 @@ class Recorder:
             for k, quantity in enumerate(self._patch.quantities):
                 about = attributes(self.wheel.fmu.variable(self.wheel.fmu.points(quantity)[0]))
                 data[f"patch.{quantity}"] = (("time", "line", "node"), rows[:, :, k], about)
-        if "profile.x" in data:
-            # The zone in which there may be contact does not move, and neither do the points.
-            coordinates["x"] = ("node", data["profile.x"][1][0], data["profile.x"][2])
-        if "line.position" in data:
-            # Positions grow with the load; line.position has them at every time.
-            coordinates["z"] = ("line", data["line.position"][1][0], data["line.position"][2])
+        # The zone in which there may be contact does not move. Positions grow with the load; line.position has them at every time.
+        for coordinate, name in (("x", "profile.x"), ("z", "line.position")):
+            if name in data:
+                coordinates[coordinate] = (data[name][0][1], data[name][1][0], data[name][2])
         if self._depths is not None:
             coordinates["depth"] = ("depth", self._depths, attributes(self.wheel.fmu.variable(self.wheel.fmu.points("depth")[0])))
         origin = self._settings | {"inputs": held, "warnings": [warning for _, warning in self._warnings]}
@@ -218,7 +217,7 @@ def celsius(record: Record) -> Record:
     """A Dataset or DataArray with temperatures in °C in the place of K."""
 
     def shown(values):
-        return (values - 273.15).assign_attrs(values.attrs, units="°C") if values.attrs.get("units") == "K" else values
+        return (values - ZERO_CELSIUS).assign_attrs(values.attrs, units="°C") if values.attrs.get("units") == "K" else values
 
     if hasattr(record, "data_vars"):
         return record.assign({name: shown(values) for name, values in record.data_vars.items()})

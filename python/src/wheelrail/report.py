@@ -7,12 +7,12 @@ import numpy as np
 
 from .output import write_columns, write_rows
 from .train import AT_REST, AXLES, COUPLER, OF_AXLE, OF_VEHICLE, columns
+from .units import ZERO_CELSIUS
 
 MOVING = 1.0  # m/s: slide is a ratio of speeds, it is taken above this one
 SLIDING = 0.01  # slide from which an axle counts as sliding
 LOCKED_BELOW = 0.1  # m/s, of the periphery
 LOCKED_ABOVE = 3.0  # m/s, of travel
-CELSIUS = 273.15  # K at 0 °C
 
 
 def coaches_of(table):
@@ -61,7 +61,7 @@ def figures(table):
             [mean(a[m & (values > SLIDING)]) for a, (values, m) in zip(adhesion, slides)], "1",
         ),
         "energy into rail and tread": ([column(table, "energy", k)[-1] / 1e3 for k in axles], "kJ"),
-        "peak temperature": ([peak(column(table, "peak", k)) for k in axles], "°C"),
+        "peak temperature": ([float(celsius(column(table, "peak", k))[-1]) for k in axles], "°C"),
         "depth above Ac1": ([1e3 * float(column(table, "ac1_depth", k)[-1]) for k in axles], "mm"),
         "air used": (1e3 * float(column(table, "air")[-1]), "l"),
         "sand used": (float(column(table, "sand")[-1]), "kg"),
@@ -89,9 +89,9 @@ def mean(values):
     return float(np.mean(values)) if len(values) else 0.0
 
 
-def peak(values):
-    """Highest temperature [°C]; nan if unknown."""
-    return float(values[-1]) - CELSIUS if values[-1] > 0.0 else float("nan")
+def celsius(values):
+    """Temperatures [K] in °C; 0 K stands for one that is unknown, and becomes nan."""
+    return np.where(values > 0.0, values - ZERO_CELSIUS, np.nan)
 
 
 def known(values):
@@ -147,7 +147,7 @@ def write_csv(path, table):
         kind, _, axle = name.rpartition("_")
         if kind in IN_CELSIUS:
             names[k] = f"{IN_CELSIUS[kind][0]}_{axle}"
-            values[:, k] = np.where(values[:, k] > 0.0, values[:, k] - CELSIUS, np.nan)
+            values[:, k] = celsius(values[:, k])
     write_rows(path, [names, *([f"{value:.9g}" for value in row] for row in values)])
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import sys
 from collections.abc import Iterable, Mapping
-from contextlib import ExitStack, nullcontext
+from contextlib import ExitStack
 from math import ceil
 from pathlib import Path
 from time import perf_counter
@@ -91,8 +91,7 @@ def _advance(wheel, courses, stop, step, progress):
 
     steps = max(ceil(stop / step - ROUNDING), 0)
     moving = {name: course for name, course in courses.items() if not course.constant}
-    shown = progress and is_terminal(sys.stderr)
-    with Bar(total=stop, desc="run", bar_format=BAR) if shown else nullcontext() as bar:
+    with Bar(total=stop, desc="run", bar_format=BAR, disable=not (progress and is_terminal(sys.stderr))) as bar:
         for k in range(steps):
             rest = stop - wheel.time
             h = rest if rest < (1.0 - ROUNDING) * step else step
@@ -103,8 +102,7 @@ def _advance(wheel, courses, stop, step, progress):
                 h = last - end
             _prescribe(wheel, moving, last)
             wheel.step(h, stop if k == steps - 1 else at(k + 1, step))
-            if bar:
-                bar.update(wheel.time - bar.n)
+            bar.update(wheel.time - bar.n)
 
 
 def _prescribe(wheel, moving, end):

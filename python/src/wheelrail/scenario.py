@@ -1,7 +1,6 @@
 """What a stop consists of, as files: scenario, vehicle, brake, track. `load` reads and checks all of them, `changed` gives a copy
 with other values."""
 
-import difflib
 from bisect import bisect_right
 from copy import deepcopy
 from pathlib import Path
@@ -29,30 +28,37 @@ SHORT = {"slide_high": "brake.wsp.slide_high"}
 OWN = {"brake.protection": Protection, "brake.sanding": Sanding, "driver": Driving}
 
 
+def fields():
+    """Fields by their dotted paths; one whose names are free stands for all that is below it."""
+
+    def below(schema, prefix=""):
+        for name, field in schema.items():
+            yield from below(field, f"{prefix}{name}.") if isinstance(field, dict) else [(prefix + name, field)]
+
+    found = dict(below({name: field for name, field in SCENARIO.items() if name not in ("name", "sweep")}))
+    found |= (entry for part, schema in PARTS.items() for entry in below(schema, f"{part}."))
+    return found | {short: found[path] for short, path in SHORT.items()}
+
+
 def field_of(path):
     """The field of a dotted path, such as `speed`, `vehicle.body.mass` or `wheel.friction.falling_ratio`; a text about what is
     wrong with it, if there is none."""
-    names, schema = SHORT.get(path, path).split("."), {k: v for k, v in SCENARIO.items() if k not in ("name", "sweep")}
+    known, names = fields(), path.split(".")
     if names[:2] == ["track", "sections"] and len(names) > 2:
         return _of_section(names[2:])
-    for k, name in enumerate(names):
-        rest = names[k + 1 :]
-        if isinstance(schema, Named):  # names are free; those of numbers may have dots
-            schema, rest = schema.item, rest if isinstance(schema.item, dict) else []
-            if not rest:
-                break
-        elif not isinstance(schema, dict) or name not in schema:
-            if headed(path)[0] != path and not isinstance(field := field_of(headed(path)[0]), str):
-                return f"has a unit in its name: write {headed(path)[0]!r}, and its values in {getattr(field, 'unit', '') or 'no unit'}"
-            close = difflib.get_close_matches(path, paths(), n=1)
-            known = "it is a key of the scenario, or vehicle, brake, track or wheel, a dot and a key of that file"
-            return f"is unknown; {f'did you mean {close[0]!r}?' if close else known}"
-        else:
-            schema = PARTS[name] if k == 0 and rest and name in PARTS else schema[name]
-    if isinstance(schema, dict | Named):
-        below = [other for other in paths() if other.startswith(f"{path}.")]
+    for k in range(1, len(names)):
+        if isinstance(free := known.get(".".join(names[:k])), Named):
+            if not isinstance(free.item, dict):
+                return free.item  # whose names may have dots
+            known |= {".".join((*names[: k + 1], key)): field for key, field in free.item.items()}
+    if path in known and not isinstance(known[path], Named):
+        return known[path]
+    below = [other for other in known if other.startswith(f"{path}.")]
+    if path in known or below:
         return f"is no value but a group{meant(path, below) if below else ''}"
-    return schema
+    if headed(path)[0] != path and not isinstance(field := field_of(headed(path)[0]), str):
+        return f"has a unit in its name: write {headed(path)[0]!r}, and its values in {getattr(field, 'unit', '') or 'no unit'}"
+    return "is unknown" + (nearest(path, known) or "; it is a key of the scenario, or vehicle, brake, track or wheel, a dot and a key of that file")
 
 
 def _of_section(names):
@@ -65,24 +71,10 @@ def _of_section(names):
     return SECTIONS[column]
 
 
-def paths():
-    """Dotted paths of all fields whose names are not free."""
-
-    def below(schema, prefix):
-        for name, field in schema.items():
-            if isinstance(field, dict):
-                yield from below(field, f"{prefix}{name}.")
-            else:
-                yield prefix + name
-
-    own = {name: field for name, field in SCENARIO.items() if name not in ("name", "sweep")}
-    return [*SHORT, *below(own, ""), *(path for part, schema in PARTS.items() for path in below(schema, f"{part}."))]
-
-
 # Last, since it knows all the others.
 SCENARIO["sweep"] = Swept(
     field_of, "lists of values by key: of this file, or of another one, such as vehicle.body.mass",
-    {"wheel": Named(Setting(-1e12, 1e12, "value"), "parameters of the FMU in a sweep, before those of wheel", {})},
+    {"wheel": Named(Setting("value"), "parameters of the FMU in a sweep, before those of wheel", {})},
     ("speed", "adhesion", "payload", "slide_high"),
 )  # fmt: skip
 SCHEMAS = {"scenario": SCENARIO, **PARTS}

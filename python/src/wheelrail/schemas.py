@@ -156,16 +156,16 @@ SCENARIO = {
     "longest": Real(0.01, 3600, "s", "a stop may take", 240.0),
     "dry": Real(1e-3, 1, "1", "friction of the dry stop that the others are compared with", 0.3, others=("%",)),
     "wheel": Named(
-        Setting(-1e12, 1e12, "value: a number, the name of a choice, preset or profile, true or false"),
+        Setting("value: a number, the name of a choice, preset or profile, true or false"),
         "parameters of the FMU, of one wheel: preset, contact.shape and the like among them", {},
     ),
     "right_wheel": Named(
-        Setting(-1e12, 1e12, "value, as of wheel"),
+        Setting("value, as of wheel"),
         "parameters in which the right wheel of every wheelset differs from wheel, which is then the left one; none if empty", {},
     ),
     "right_friction": Real(1e-3, 1e3, "1", "friction of the right rail over that of the left one, which the track has", 1.0),
     "temperatures": Named(
-        Setting(-1e12, 1e12, "value, as of wheel"),
+        Setting("value, as of wheel"),
         "parameters of one more wheel beside every wheelset, which moves as that one does and gives its temperatures and damage: "
         "a patch beside a line; none if empty", {},
     ),

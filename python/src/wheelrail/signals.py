@@ -11,8 +11,6 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike
 
-# Windows by the names of scipy. The flat top returns the amplitude of a sine wherever it lies between two lines.
-WINDOWS = {"none": "boxcar", "hann": "hann", "flattop": "flattop"}
 MOST_SAMPLES = 10_000_000  # that a signal is resampled to
 UNEVEN = 1e-6  # relative deviation of steps from their mean up to which they count as equal
 
@@ -113,17 +111,11 @@ def exceedance(time: ArrayLike, values: ArrayLike) -> tuple[np.ndarray, np.ndarr
     return values[order], np.clip(1.0 - np.cumsum(share), 0.0, 1.0)
 
 
-def window(name: str, count: int) -> np.ndarray:
-    """Values of a window of `count` samples, (count,)."""
-    if name not in WINDOWS:
-        raise BadSignal(f"window = {name!r} is none of {', '.join(WINDOWS)}")
-    return scipy.signal.get_window(WINDOWS[name], count)
-
-
-def amplitudes(positions: ArrayLike, values: ArrayLike, taper: str = "flattop") -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies (n // 2 + 1,) [1/unit of positions] and amplitudes of the sinusoids in a signal, in its unit, without its mean."""
+def amplitudes(positions: ArrayLike, values: ArrayLike, window: str = "flattop") -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies (n // 2 + 1,) [1/unit of positions] and amplitudes of the sinusoids in a signal, in its unit, without its mean. Windows
+    are those of scipy; the flat top returns the amplitude of a sine wherever it lies between two lines."""
     positions, values = checked(positions, values)
-    frequency, power = scipy.signal.periodogram(values, 1.0 / spacing(positions), window(taper, len(values)), scaling="spectrum")
+    frequency, power = scipy.signal.periodogram(values, 1.0 / spacing(positions), window, scaling="spectrum")
     once = (frequency == 0.0) | (frequency > 0.499999 / spacing(positions))  # lines that have no twin of negative frequency
     return frequency, np.sqrt(np.where(once, 1.0, 2.0) * power)
 
@@ -137,17 +129,17 @@ def harmonic(positions: ArrayLike, values: ArrayLike, frequency: float) -> tuple
     return float(np.hypot(real, imaginary)), float(np.arctan2(imaginary, real))
 
 
-def octaves(positions: ArrayLike, values: ArrayLike, reference: float = 1.0, taper: str = "hann") -> tuple[np.ndarray, np.ndarray]:
+def octaves(positions: ArrayLike, values: ArrayLike, reference: float = 1.0, window: str = "hann") -> tuple[np.ndarray, np.ndarray]:
     """Levels in one-third octaves (IEC 61260-1, base ten): mid-band frequencies and 20 lg(rms/reference) [dB].
 
     A line at the border of two bands is shared between them. Bands of less than two lines and bands beyond half the
     sampling rate are left out. For a profile over metres, frequencies are 1/wavelength and `reference` is 1e-6 m. A signal
-    that repeats exactly after its length needs no window: `taper="none"`.
+    that repeats exactly after its length needs no window: "boxcar".
     """
     positions, values = checked(positions, values)
-    count, step, shape = len(values), spacing(positions), window(taper, len(values))
+    count, step = len(values), spacing(positions)
     width = 1.0 / (count * step)
-    squares = width * scipy.signal.periodogram(values, 1.0 / step, shape)[1]
+    squares = width * scipy.signal.periodogram(values, 1.0 / step, window)[1]
     low, high = 10.0 * np.log10(2.0 * width), 10.0 * np.log10(0.5 / step)
     numbers = np.arange(np.floor(low), np.ceil(high) + 1.0)
     below, above = 10.0 ** (0.1 * numbers - 0.05), 10.0 ** (0.1 * numbers + 0.05)

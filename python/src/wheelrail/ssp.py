@@ -7,7 +7,9 @@ parameters of a scenario. In the `.ssp` lie
     resources/train.ssv         the same values for the whole system, for masters that want one set (fmpy)
     resources/presets/*.ssv     every preset of the wheel, as far as it differs from the default: for one wheel
 
-`parallel.py` computes what a master makes of them.
+Such a master steps everything at once, with inputs that hold what came out of the last step. Forces of the beginning of a step, held,
+would swing up in a stiff primary suspension: the coach looks one step further ahead, and the wheels hold the mean of its forces over the
+step that comes. In the first step wheels roll at the initial speed without force.
 """
 
 import subprocess
@@ -20,7 +22,6 @@ from .files import BadFile
 from .origin import preset_values
 from .output import fresh
 from .output import write as write_file
-from .parallel import friction
 from .scenario import of_two_kinds
 from .values import Refused
 from .vehicle import AXLES, Coach
@@ -77,6 +78,12 @@ def wheelset_values(scenario, fmu):
     load, damping = Coach(scenario.vehicle).static_load, scenario.vehicle.primary.vertical_damping
     values |= {"initial.velocity": scenario.speed, "vehicle.mass": 0.0, "vehicle.damping": damping}
     return values | {"drive.load": load, "rail.friction": friction(scenario)}
+
+
+def friction(scenario):
+    """Friction [1] of the first section of the track, which a package has everywhere."""
+    track = scenario.track
+    return track.conditions[track.sections.condition[0]].friction
 
 
 def presets(fmu):

@@ -22,9 +22,9 @@ class BadFile(Exception):
     """A file that cannot be used; the text names file, line, name and range."""
 
 
-def nearest(name: str, known: Iterable[str]) -> str:
-    """The end of a refusal of a name: the known one that resembles it, if there is one."""
-    return "".join(f"; did you mean {other}?" for other in get_close_matches(name, known, n=1))
+def nearest(name: str, known: Iterable[str], likeness: float = 0.6) -> str:
+    """The end of a refusal of a name: the known one that resembles it, if there is one; a `likeness` of 1 is that of equal names."""
+    return "".join(f"; did you mean {other}?" for other in get_close_matches(name, known, n=1, cutoff=likeness))
 
 
 SAVE = 'save it as UTF-8 ("CSV UTF-8" in Excel, Out-File -Encoding utf8 in PowerShell, "encoding" in editors)'

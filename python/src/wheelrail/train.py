@@ -213,7 +213,7 @@ class Stop:
         of = lambda k: f", coach {k + 1}," if self.coach.count > 1 else ""
         with fresh_modules():
             self.brakes = [Brakes(scenario.brake, [scenario.speed] * AXLES, of(k)) for k in range(self.coach.count)]
-            self.driver = OwnDriver(scenario.driver, scenario, scenario.driver_parameters) if scenario.driver else None
+            self.driver = OwnDriver(scenario.driver, (scenario,), scenario.driver_parameters) if scenario.driver else None
         ahead = self.coach.axle_positions - self.coach.axle_positions[0]
         rail = scenarios.rail_map(scenario.track, -ahead[-1], self.axles, dry)
         wheelsets, told = wheelsets_of(fmu, scenario, self.coach)

@@ -15,6 +15,7 @@ from functools import cache
 from typing import Any
 
 
+ZERO_CELSIUS = 273.15  # K
 DERIVED = ("N", "Pa", "J", "W")  # units that stay as they are written
 NONE = ("", "1", "-", "dimensionless", "none", "unitless")  # of a number without a unit
 LETTERS = "gmsKANJWthdl%‰"  # that are units by themselves behind a name

@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
-from typing import TextIO
 
 PACKAGE = str(Path(__file__).resolve().parent)
 STANDARD = tuple({sysconfig.get_path(name) for name in ("stdlib", "platstdlib")})
@@ -49,14 +48,14 @@ def collected() -> Iterator[list[str]]:
 
 
 @contextmanager
-def in_lines(file: TextIO | None = None) -> Iterator[None]:
+def in_lines() -> Iterator[None]:
     """Warnings of this package are lines `warning: …` meanwhile, unless filters of Python make errors of them or silence them."""
     with warnings.catch_warnings():
         usual = warnings.showwarning
 
         def show(message, category, *place, **named):
             if issubclass(category, WheelrailWarning):
-                print(f"warning: {' '.join(str(message).split())}", file=file or sys.stderr, flush=True)
+                print(f"warning: {' '.join(str(message).split())}", file=sys.stderr, flush=True)
             else:
                 usual(message, category, *place, **named)
 

@@ -16,6 +16,7 @@ from .fmu import Fmu, Refused, Wheel
 from .warn import collected
 
 WHEELS = 2
+FULL_SLIP = 4e-3  # creepage of a rigid wheelset from which on it slides
 
 
 class Drive(NamedTuple):
@@ -77,15 +78,12 @@ class FmuWheelset:
     ) -> None:
         """`wheelset` has mass [kg], inertia [kg m2] and radius [m]; `damping` [N s/m] resists its bounce; `parameters`
         of the FMU count for one wheel and go before everything else. `alone` makes one wheel of a line, too."""
-        self.mass, self.inertia, self.radius = wheelset.mass, wheelset.inertia, wheelset.radius
+        self.radius = wheelset.radius
         values, self.wheels = parameters_of(fmu, wheelset, parameters or {}, alone)
         self.share = self.wheels / WHEELS  # of the wheelset that the FMU is
         values |= {"initial.velocity": speed, "vehicle.mass": 0.0, "vehicle.damping": self.share * damping}
         self.wheel, self.beside = Wheel(fmu, values, {"drive.load": self.share * load}, name="wheelset"), None
-        self.reference, *held = self.wheel.get("thermal.reference", "wheel.mass", "wheel.inertia")
-        if not np.allclose(held, [self.share * self.mass, self.share * self.inertia], rtol=1e-6):
-            self.close()
-            raise Refused(f"the FMU holds {held[0]:g} kg, {held[1]:g} kg m2 in place of {wheelset}")
+        self.reference = self.wheel.get("thermal.reference")
         if beside:
             self.beside = self._follower(fmu, beside, load, speed)
         self._heat = 0.0
@@ -237,13 +235,13 @@ WITHOUT_EFFECT = ("friction.coefficient", "friction.softening", "friction.soften
 class RigidWheelset:
     """A rigid wheelset under Carter's creep force, by backward Euler.
 
-    With z = |s|/(V xi_full), F = mu N (2 z - z^2) below full slip, mu N beyond, with the friction of the slip s of the step
+    With z = |s|/(V FULL_SLIP), F = mu N (2 z - z^2) below full slip, mu N beyond, with the friction of the slip s of the step
     before. The load is that of the suspension; nothing is hot.
     """
 
-    def __init__(self, wheelset: SimpleNamespace, speed: float, full_slip: float = 4e-3, law: FrictionLaw = FrictionLaw()) -> None:
+    def __init__(self, wheelset: SimpleNamespace, speed: float, law: FrictionLaw = FrictionLaw()) -> None:
         self.mass, self.inertia, self.radius = wheelset.mass, wheelset.inertia, wheelset.radius
-        self.full_slip, self.law = full_slip, law
+        self.law = law
         self.position, self.velocity, self.omega = 0.0, speed, speed / wheelset.radius
         self.slip, self.energy = 0.0, 0.0
 
@@ -252,7 +250,7 @@ class RigidWheelset:
         r, m, inertia = self.radius, self.mass, self.inertia
         pull, torque, load = (0.5 * sum(pair) for pair in (drive.force, drive.torque, drive.load))
         grip = load * drive.friction * self.law.factor(self.slip)
-        scale = max(abs(self.velocity), abs(r * self.omega), 0.01) * self.full_slip
+        scale = max(abs(self.velocity), abs(r * self.omega), 0.01) * FULL_SLIP
         turning = np.sign(self.omega) or np.sign(self.velocity)
         free = self.velocity + h * pull / m
         spun = self.omega - h * turning * torque / inertia

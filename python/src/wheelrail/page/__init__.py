@@ -20,7 +20,6 @@ from ..fmu import default_path
 from . import sources
 from .html import drawable
 from .run import Run, of_dataset
-from .stops import Stop, of_table
 from .writing import run_page, stops_page
 
 if TYPE_CHECKING:
@@ -37,12 +36,9 @@ def write(path: str | Path, dataset: xarray.Dataset | Run) -> Path:
 
 
 def of_stops(path: str | Path, stops: Mapping[str, Any], title: str = "A train brakes", about: Sequence[tuple[str, str]] = ()) -> Path:
-    """Writes the page of stops side by side: name to the table of `train.Stop.run` or (table, rail map), or to a `stops.Stop`.
-    `about` has rows of texts on the scenario, name and value. Returns the path."""
-    place, found = Path(path).absolute(), {
-        name: stop if isinstance(stop, Stop) else of_table(stop[0] if isinstance(stop, tuple) else stop)
-        for name, stop in stops.items()
-    }
+    """Writes the page of stops side by side: name to the table of `train.Stop.run` or (table, rail map). `about` has rows of texts
+    on the scenario, name and value. Returns the path."""
+    place, found = Path(path).absolute(), {name: stop[0] if isinstance(stop, tuple) else stop for name, stop in stops.items()}
     output.write(place, stops_page(title, found, about, _now()))
     return Path(path)
 

@@ -4,17 +4,13 @@ import base64
 
 import numpy as np
 
-from ..grid import laid
+from ..grid import edges, laid
 from .charts import rounded
-from .units import CELSIUS, shown
+from .units import CELSIUS, SHAPES, shown
 
 ALONG, ACROSS = 49, 25  # places of the grid
 FINER = 3  # times as many in the picture, with values in between
 LEVELS = 8000  # whole numbers for the values of a quantity
-SHOWN = {
-    "pressure": "Pa", "shear": "Pa", "shear_z": "Pa", "slip": "m/s", "slip_z": "m/s", "state": "", "temperature_wheel": "K",
-    "temperature_rail": "K",
-}  # fmt: skip
 
 
 def of_run(run, time):
@@ -27,8 +23,8 @@ def of_run(run, time):
     anything goes across.
     """
     at = {name: _at(run.lines, name, time) for name in run.lines.values}
-    pressure = shown("Pa", at["pressure_max"])
-    rows = {"z": 1e3 * at["position"], "half_length": 1e3 * at["half_length"], "edges": 1e3 * _edges(run, at["position"], time)}
+    pressure, between = shown("Pa", at["pressure_max"]), edges(at["position"], run.at("contact.width", time))
+    rows = {"z": 1e3 * at["position"], "half_length": 1e3 * at["half_length"], "edges": 1e3 * between}
     rows["pressure"] = pressure(at["pressure_max"])
     units = {"pressure": pressure.label}
     if "stick_fraction" in at:
@@ -40,23 +36,24 @@ def of_run(run, time):
             rows[f"temperature_{body}"] = CELSIUS(hottest)
     found = {name: [rounded(row, 5) for row in values] for name, values in rows.items()}
     arrows, arrow_units = _arrows(at, rows)
-    return found | arrows | {"ahead": _ahead(run, time), "units": units | arrow_units, "grid": _grid(run, time, at)}
+    return found | arrows | {"ahead": _ahead(run, time), "units": units | arrow_units, "grid": _grid(run, time, at, between)}
 
 
-def _grid(run, time, at):
-    """Quantities between the lines at the recorded instants nearest to some times: places `x` and `z` [mm]; `rim`, the edges at
-    `finer` times as many places across; and for each quantity its unit, least and largest value and, packed, its values as whole
-    numbers up to LEVELS, those unknown beyond it.
+def _grid(run, time, at, between):
+    """Quantities between the lines, whose strips meet at `between` [m], at the recorded instants nearest to some times: places `x` and
+    `z` [mm]; `rim`, the ends of the patch along the rail at `finer` times as many places across; and for each quantity its unit, least
+    and largest value and, packed, its values as whole numbers up to LEVELS, those unknown beyond it.
 
     Of a run without profiles of its lines only the pressure is known, as half an ellipse along each line.
     """
-    edges, half = _edges(run, at["position"], time), at["half_length"]
-    reach, margin = 1.06 * max(half.max(), 1e-6), 0.03 * float(np.ptp(edges))
-    x, z = np.linspace(-reach, reach, ALONG), np.linspace(edges.min() - margin, edges.max() + margin, ACROSS)
+    half = at["half_length"]
+    reach, margin = 1.06 * max(half.max(), 1e-6), 0.03 * float(np.ptp(between))
+    x, z = np.linspace(-reach, reach, ALONG), np.linspace(between.min() - margin, between.max() + margin, ACROSS)
     rim = np.linspace(z[0], z[-1], FINER * (ACROSS - 1) + 1)
-    sides = edges[:, [0, -1]]
+    sides = between[:, [0, -1]]
     frames = [laid(*_lines(run, at, k, t, reach), at["position"][k], half[k], sides[k], x, z, rim) for k, t in enumerate(time)]
-    names = [name for name in frames[0] if name in SHOWN and (run.across is not None or name == "pressure")]
+    known = [name for name in frames[0] if name.removesuffix("_z") in (*SHAPES, "state")]
+    names = known if run.across is not None else ["pressure"]
     found = {name: _levels(name, np.array([frame[name] for frame in frames])) for name in names}
     ends = [[rounded(1e3 * frame["rim"][:, k], 4) for k in (0, 1)] for frame in frames]
     places = {"x": rounded(1e3 * x, 5), "z": rounded(1e3 * z, 5), "finer": FINER, "rim": ends}
@@ -75,7 +72,7 @@ def _lines(run, at, k, instant, reach):
 
 def _levels(name, values):
     """A quantity in the unit that is shown, as whole numbers; None where it has none, as temperatures of a run without heat."""
-    unit = SHOWN[name]
+    unit = SHAPES.get(name.removesuffix("_z"), "")
     if unit == "K" and not np.any(np.nan_to_num(values)):
         return None
     how = CELSIUS if unit == "K" else shown(unit, values) if unit else None
@@ -103,18 +100,6 @@ def _arrows(at, rows):
 def _at(lines, name, time):
     """A quantity of the lines at other times."""
     return np.column_stack([np.interp(time, lines.time, column) for column in lines.values[name].T])
-
-
-def _edges(run, position, time):
-    """Where strips of the lines meet [m]; without contact.width the outermost ones are as wide as half of them is known to be."""
-    middle = 0.5 * (position[:, 1:] + position[:, :-1])
-    first, last = 2.0 * position[:, :1] - middle[:, :1], 2.0 * position[:, -1:] - middle[:, -1:]
-    width = run.at("contact.width", time)
-    if width is not None:
-        # Positions may begin anywhere, as those of a table of rows do.
-        beyond = 0.5 * (width[:, None] - (last - first))
-        first, last = np.minimum(first - beyond, position[:, :1]), np.maximum(last + beyond, position[:, -1:])
-    return np.hstack([first, middle, last])
 
 
 def _ahead(run, time):

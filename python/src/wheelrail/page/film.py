@@ -2,15 +2,14 @@
 
 import numpy as np
 
+from ..grid import STICKS
 from . import above
 from .charts import rounded
-from .units import CELSIUS, KELVIN, KMH, PERCENT, shown
+from .units import CELSIUS, KMH, PERCENT, SHAPES, shown
 
 FRAMES = 400  # instants of the film at most
-STICKS = 1e-6  # m/s: a place that slips less sticks
 STRIKING = 50.0  # K: a rise on which the map of the patch begins zoomed
 STILL = 0.5  # K: a field that changes less is not drawn
-SHAPES = {"pressure": "Pa", "shear": "Pa", "slip": "m/s", "temperature_wheel": "K", "temperature_rail": "K"}
 # Titles of temperatures over the depth, in plain words.
 BELOW = {
     "temperature_wheel_below": "Wheel, below the contact", "temperature_rail_below": "Rail, below the contact",
@@ -31,12 +30,12 @@ def most_of(rows):
     return np.where(known, most, most[known].min() if known.any() else 0.0)
 
 
-def chosen(time, values, most=FRAMES):
-    """Indices of at most `most` rows, as dense in time as they were recorded, and those of the largest value of each quantity."""
-    if len(time) <= most:
+def chosen(time, values):
+    """Indices of at most `FRAMES` rows, as dense in time as they were recorded, and those of the largest value of each quantity."""
+    if len(time) <= FRAMES:
         return np.arange(len(time))
     peaks = {int(np.argmax(most_of(np.abs(v)))) for v in values if np.isfinite(v).any()}
-    even = np.linspace(0, len(time) - 1, most - len(peaks)).round().astype(int)
+    even = np.linspace(0, len(time) - 1, FRAMES - len(peaks)).round().astype(int)
     return np.array(sorted(peaks | set(even.tolist())))
 
 
@@ -143,6 +142,6 @@ def fields(run):
         deep = min(len(field.depth), int(warm[-1]) + 2 if len(warm) else len(field.depth))
         found.append({
             "title": BELOW.get(name) or field.meaning or name.replace("_", " ").capitalize(), "note": "", "time": rounded(field.time[kept], 7),
-            "depth": rounded(1e3 * field.depth[:deep], 5), "values": _rows(values[:, :deep].T - KELVIN),
+            "depth": rounded(1e3 * field.depth[:deep], 5), "values": _rows(CELSIUS(values[:, :deep].T)),
         })  # fmt: skip
     return found

@@ -1,18 +1,16 @@
 """A run as a page shows it: quantities over time with unit and meaning, profiles over patch and depth, what was set."""
 
 import json
-import re
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from .. import damage
+from ..fmu import known_unit
 from ..tables import BadFile
 from ..units import UnitError, in_si, unit_of
 from ..warn import warn
-from .units import guessed
 
-OF_FMU = re.compile(r"\w+(\.\w+)+")  # names of variables of the FMU
 PLACES = ("time", "node", "depth", "line")  # dimensions of a record
 
 
@@ -140,7 +138,7 @@ def _of_one_run(dataset):
     if more:
         warn(f"not on the page, being over {' and '.join(more)} besides time: {', '.join(apart)}")
     for name in dataset.data_vars:
-        unit, expected = dataset[name].attrs.get("units", ""), guessed(name) if OF_FMU.fullmatch(str(name)) else ""
+        unit, expected = dataset[name].attrs.get("units", ""), known_unit(name)
         try:
             if unit and expected and unit_of(unit).bases != unit_of(expected).bases:
                 raise UnitError(f"expected {expected}")

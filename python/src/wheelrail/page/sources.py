@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .. import report
 from ..files import BadFile
 from ..fmu import Fmu, Refused, default_path
 from ..origin import preset_values
@@ -16,7 +17,6 @@ from ..units import UnitError, converted, headed, unit_of
 from ..values import first_line
 from . import stops
 from .run import Profiles, Run, Series, of_dataset, seen_lines, seen_rows
-from .units import guessed
 
 HDF, CLASSIC = b"\x89HDF", b"CDF"
 FLAGS = {"true": 1.0, "false": 0.0}
@@ -24,7 +24,7 @@ POINT = re.compile(r"^(?P<of>profile|line)\.(?P<name>\w+)\[(?P<point>\d+)\]$")
 
 
 def read(path, fmu=None):
-    """What a file or directory holds: a `Run`, or a dict of stops, name to `stops.Stop`. `fmu` is a path: what its
+    """What a file or directory holds: a `Run`, or a dict of stops, name to table. `fmu` is a path: what its
     description says of units and meaning holds for a CSV without units."""
     path = Path(path)
     if path.is_dir():
@@ -130,8 +130,8 @@ def _of_csv(path, columns, described):
     """The run of a CSV of `wheelrail simulate --out`."""
     time, series, points = columns.pop("time")[1], {}, {"profile": {}, "line": {}}
     for name, column in columns.items():
-        known, meaning = described.get(name, (guessed(name.partition("[")[0]), ""))
-        found = Series(_in(path, name, column, known), known, meaning) if known or name in described else _as_written(*column)
+        known, meaning = described.get(name, ("", ""))
+        found = Series(_in(path, name, column, known), known, meaning) if name in described else _as_written(*column)
         if point := POINT.match(name):
             points[point["of"]].setdefault(point["name"], {})[int(point["point"])] = found.values
         else:
@@ -139,7 +139,7 @@ def _of_csv(path, columns, described):
     patch, lines = (
         {name: np.column_stack([found[k] for k in sorted(found)]) for name, found in points[of].items()} for of in points
     )
-    about = {} if described else {"note": "Units are guessed from the names: there is no FMU here that says them."}
+    about = {} if described else {"note": "There is no FMU here that says units and meanings."}
     return Run(path.stem, time, series, seen_rows(Profiles(time, patch)), about=about, lines=seen_lines(time, lines))
 
 
@@ -160,9 +160,9 @@ def _directory(path):
             found[file.stem.removeprefix("train_").replace("_", " ")] = _stop(file, table(file)[1])
     if not found:
         raise BadFile(
-            f"{path}: no CSV of a stop in it (columns time, speed, peripheral_1); expected results of `python -m wheelrail train`"
+            f"{path}: no CSV of a stop in it (columns time, speed … of all axles); expected results of `python -m wheelrail train`"
         )
-    return dict(sorted(found.items(), key=lambda item: item[1].travelled()))
+    return dict(sorted(found.items(), key=lambda item: report.column(item[1], "travelled")[-1]))
 
 
 def _stop(path, columns):

@@ -1,10 +1,9 @@
 """Units that a person reads: kN, MPa, mm, °C and the like, from the SI units that the FMU gives."""
 
-import re
-
 import numpy as np
 
-KELVIN = 273.15  # K at 0 °C
+from ..units import ZERO_CELSIUS
+
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 # Unit in SI: (from this size on, label, factor), the largest first.
@@ -24,6 +23,8 @@ SCALES = {
     "m3": ((0.0, "l", 1e3),),
 }
 PLAIN = {"m/s2": "m/s²", "rad/s2": "rad/s²", "kg.m2": "kg·m²", "1": "", "": "", "degC": "°C", "W/(m2.K)": "W/(m²·K)"}
+# Units of what varies over a patch; other quantities of it are states.
+SHAPES = {"pressure": "Pa", "shear": "Pa", "slip": "m/s", "temperature_wheel": "K", "temperature_rail": "K"}
 
 
 class Shown:
@@ -41,7 +42,7 @@ class Shown:
         return text if text == "–" else f"{text} {self.label}".strip()
 
 
-PERCENT, KMH, CELSIUS = Shown("%", 100.0), Shown("km/h", 3.6), Shown("°C", 1.0, -KELVIN)
+PERCENT, KMH, CELSIUS = Shown("%", 100.0), Shown("km/h", 3.6), Shown("°C", 1.0, -ZERO_CELSIUS)
 
 
 def shown(unit, *arrays):
@@ -68,22 +69,3 @@ def number(value, digits=4):
         return (text.rstrip("0").rstrip(".") if "." in text else text).replace(",", "\u2009").replace("-", "−")
     mantissa, exponent = f"{value:.2e}".split("e")
     return f"{mantissa}·10{str(int(exponent)).translate(RAISED)}".replace("-", "−")
-
-
-# Units of the FMU's variables by name, for a file beside which there is no FMU.
-GUESSES = (
-    (r".*position$", "m"), (r".*_(rate|ratio|share)$", ""),
-    (r"temperature\.|.*peak_temperature$|damage\.(rail_peak|martensite_start)$|profile\.temperature|rail\.temperature$", "K"),
-    (r"thermal\.(reference|austenitisation)$|material\.(solidus|liquidus)$", "K"),
-    (r".*\.(force|load)|damage\.t_gamma$", "N"),
-    (r".*(moment|torque)", "N.m"), (r"heat\.|brake\.power$", "W"), (r"energy\.", "J"), (r".*pressure|profile\.shear", "Pa"),
-    (r".*velocity$|.*slip(_z)?$", "m/s"), (r".*slip_direction$", "rad"), (r"contact\.spin$", "1/m"), (r"hub\..*_power$", "W"), (r"wheel\.omega$", "rad/s"),
-    (r"wheel\.angular_acceleration$", "rad/s2"), (r"wheel\.acceleration$", "m/s2"),
-    (r".*(half_width|approach|distance|height|length|depth\w*|flattening\w*|melted|growth)$|profile\.x$", "m"),
-    (r".*(creepage|slide|adhesion|utilisation|stick_fraction|residual|friction|yielded|molten|fi_surf)$", "1"),
-)  # fmt: skip
-
-
-def guessed(name):
-    """Unit of a variable by its name, empty if that does not say."""
-    return next((unit for pattern, unit in GUESSES if re.match(pattern, name)), "")

@@ -5,8 +5,10 @@ import re
 
 import numpy as np
 
+from .. import report
+from ..fmu import known_unit
 from . import balance, charts, film, html, stops
-from .units import CELSIUS, KMH, PERCENT, Shown, guessed, number, shown
+from .units import CELSIUS, KMH, PERCENT, Shown, number, shown
 
 MOMENT = re.compile(r"^t = ([\d.e+-]+) s: ")  # with which the FMU begins its warnings
 CREDIT = "Drawn by plotly.js (MIT licence, © Plotly), which is inside this file; nothing is loaded from anywhere."
@@ -49,15 +51,13 @@ def run_page(run, when):
 
 
 def stops_page(title, found, about, when):
-    """The page of stops: `found` is name to `stops.Stop`, `about` rows of texts."""
+    """The page of stops: `found` is name to table, `about` rows of texts."""
     first, title = next(iter(found.values())), title[:1].upper() + title[1:]
     longest = [(name, stops.reached(s)) for name, s in found.items()]
-    parts = [html.head(title, f"{len(found)} stops, {len(first.axles())} axles, written {when}", longest), html.EMPTY]
+    parts = [html.head(title, f"{len(found)} stops, {len(report.axles_of(first))} axles, written {when}", longest), html.EMPTY]
     parts.append(html.section("overview", "Side by side", html.charts("together")))
-    rows = stops.figures(found)
-    if rows:
-        note = "One figure for each axle, the leading one first. Slide is (V − rω)/V."
-        parts.append(html.section("figures", "Key figures", html.table(rows, "numbers"), note))
+    note = "One figure for each axle, the leading one first. Slide is (V − rω)/V."
+    parts.append(html.section("figures", "Key figures", html.table(stops.figures(found), "numbers"), note))
     choice = html.choices(found) if len(found) > 1 else ""
     parts.append(
         html.section("curves", "Over time", choice + html.charts(), "Zoom in one figure zooms all; a click on a name hides it.")
@@ -223,7 +223,7 @@ def settings(run):
 def _setting(name, value):
     """A value as the FMU takes it, in SI units; absolute temperatures in °C beside it."""
     text = value if isinstance(value, str) else json.dumps(value) if not isinstance(value, float) else f"{value:.9g}"
-    return f"{text} K = {CELSIUS.text(value)}" if guessed(name) == "K" and isinstance(value, (int, float)) else text
+    return f"{text} K = {CELSIUS.text(value)}" if known_unit(name, shown=True) == "degC" and isinstance(value, (int, float)) else text
 
 
 def quantities(run):
