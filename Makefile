@@ -1,7 +1,7 @@
 # make demo      braking stop from 100 km/h through fmpy: table, CSV, picture and page (report.html) in results/
 # make help      these lines
 # make test      every test, Rust and fmpy; of it test-rust (COMPILE=1 only compiles its programs) and test-fmpy
-# make loop TEST=brake  the tests of one file after an edit, or of a folder of tests/ (TEST=tree: architecture and documents), or
+# make loop TEST=brake  the tests of one file after an edit, or of a folder of tests/ (TEST=tree: architecture, documents, lists), or
 #                unit tests (TEST=lib); ARGS=name runs those of that name
 # make fmu       target/wheelrail.fmu, target/wheelrail-fmi3.fmu with the interface of FMI 3.0, and target/wheelrail.cdx.json: the
 #                crates that are linked into their library. PROFILES=no leaves the points of profiles out of the description
@@ -146,6 +146,7 @@ test-fmpy: environments $(FMU) $(FMU3) $(COACH) $(BENCH)
 PROGRAM = $(or $(notdir $(patsubst %/,%,$(dir $(wildcard tests/*/$(TEST).rs)))),$(TEST))
 loop:
 	@test -n "$(TEST)" || { echo 'make loop TEST=name: a file or a folder in tests/, or lib for the unit tests'; exit 1; }
+	$(if $(filter tree,$(TEST)),$(PYTHON) -m unittest discover --quiet tools && $(PYTHON) tools/mutations.py --check)
 	$(CARGO) test --profile edit --locked $(if $(filter lib,$(TEST)),$(UNITS) --lib,--test $(PROGRAM)) -- --show-output $(or $(ARGS),$(if $(wildcard tests/*/$(TEST).rs),$(TEST)::))
 
 # What fmu and wheel make, by ALL=1 for several platforms. Compilers are looked for before anything is compiled; whoever has

@@ -9,8 +9,8 @@ use crate::axes::{Axis, PerAxis};
 use crate::contact::line::ContactGrid;
 use crate::contact::{
     ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, BySpeed, ContactError, ContactProblem, ContactState, Drift,
-    Friction, HalfSpace, Influence, LineKernel, LineLayout, LineProblem, PatchLayout, PatchMaterial, RigidMotion,
-    SteelLimits, SurfaceResponse, Traction, Undeformed,
+    Friction, HalfSpace, Influence, Layer, LineKernel, LineLayout, LineProblem, PatchLayout, PatchMaterial,
+    RigidMotion, SteelLimits, SurfaceResponse, Traction, Undeformed,
 };
 use crate::linalg::POINTS;
 use crate::multistep::{self, TimeDerivative};
@@ -209,7 +209,7 @@ impl RollingContact {
             position: layout.position,
             size: layout.size,
             kernel: layout.kernel,
-            layer: 0.0,
+            layer: Layer::default(),
             patch: match &self.shape {
                 Shape::Strip => None,
                 Shape::Ellipse(patch) => Some(layout.in_patch(patch.flexibility(), number)),

@@ -17,7 +17,7 @@ pub mod table;
 pub mod units;
 pub mod value;
 
-pub use choices::{ContactShape, CrossSection, Given, Hub, RailEnds, StartTemperature, Wear, WheelsetSide};
+pub use choices::*;
 pub use dependent::ConfigError;
 pub use nominal::NominalPatch;
 pub use patch_rows::{OnWheel, PatchRows, PatchTable, RowsError};

@@ -6,7 +6,7 @@
 //! they come first in the reference. A row that is taken out moves to [`super::retired`]. Fields that are `inside` are no
 //! parameters: only code sets them, that of tests and of the thesis.
 
-use super::choices::{ContactShape, CrossSection, Given, Hub, RailEnds, StartTemperature, Wear, WheelsetSide};
+use super::choices::*;
 use super::row::parameters;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 

@@ -13,7 +13,7 @@ use crate::axes::{Axis, PerAxis};
 use crate::config::{Config, RowsError};
 use crate::contact::limits::borne_in_sliding;
 use crate::contact::{
-    ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction,
+    ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Friction, Layer,
     LineLayout, LineProblem, SteelLimits, SurfaceResponse, Traction, Undeformed,
 };
 use crate::material::{INDENTATION, Isotropic, YIELD_IN_SHEAR};
@@ -34,8 +34,8 @@ pub struct ContactModel {
     nominal_half_width: f64,
     /// Width of the line contact [m].
     width: f64,
-    /// Flexibility of the layer between the surfaces [m/Pa].
-    layer: f64,
+    /// Layer between the surfaces.
+    layer: Layer,
     /// Pressure at which cold steel yields \[Pa]; infinite: never.
     pub yield_pressure: f64,
     /// Yield strength of cold steel in shear \[Pa].
@@ -59,7 +59,7 @@ impl ContactModel {
             nominal_load: config.model.nominal_load,
             nominal_half_width: config.nominal_patch().half_length,
             width: config.width(),
-            layer: config.contact.layer_flexibility,
+            layer: Layer { shear: config.contact.layer_flexibility },
             yield_pressure: match config.physics.yielding {
                 true => INDENTATION * config.material.yield_strength,
                 false => f64::INFINITY,

@@ -25,8 +25,8 @@ fn half_planes_with_a_soft_layer_creep_as_a_brush_on_the_grid() {
     let missed = |per_half_width: usize, k: f64| {
         let mut bodies = HalfPlanes::new(per_half_width);
         // Of half-planes `πaE*/2` would be the slope `dF/dξ`, of the layer it is `2a²/L`.
-        bodies.layer = 400.0 * a / (PI * modulus());
-        let creepage = k * FRICTION * peak * bodies.layer / a;
+        bodies.layer.shear = 400.0 * a / (PI * modulus());
+        let creepage = k * FRICTION * peak * bodies.layer.shear / a;
         let found = bodies.roll(NOMINAL, creepage, &bodies.start()).unwrap();
         -k.signum() * found.traction.resultant.travel / (FRICTION * NOMINAL) - brush(k.abs())
     };

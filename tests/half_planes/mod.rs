@@ -9,7 +9,7 @@ use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::active_set::ActiveSetSolver;
 use wheelrail::contact::line::ContactGrid;
 use wheelrail::contact::{
-    ActiveSetScratch, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Drift, Friction, Influence,
+    ActiveSetScratch, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Drift, Friction, Influence, Layer,
     LineKernel, LineProblem, RigidMotion, SteelLimits, SurfaceResponse, Undeformed,
 };
 use wheelrail::multistep::TimeDerivative;
@@ -34,8 +34,8 @@ pub struct HalfPlanes {
     /// Displacement of the ports of wheel and rail without forces [m].
     pub free: [DVector<f64>; 2],
     none: [DMatrix<f64>; 4],
-    /// Flexibility of the layer between the surfaces [m/Pa].
-    pub layer: f64,
+    /// Layer between the surfaces.
+    pub layer: Layer,
 }
 
 pub fn modulus() -> f64 {
@@ -68,7 +68,7 @@ impl HalfPlanes {
         let of = |rows, columns| DMatrix::zeros(rows, columns);
         let none = [of(PORTS, PORTS), of(PORTS, AXES), of(AXES, PORTS), of(AXES, AXES)];
         let free = [DVector::zeros(PORTS), DVector::zeros(PORTS)];
-        Self { grid, surfaces: Surfaces::smooth(RADIUS), solver, free, none, layer: 0.0 }
+        Self { grid, surfaces: Surfaces::smooth(RADIUS), solver, free, none, layer: Layer::default() }
     }
 
     /// Turns the rim by an angle about the wheel centre [rad], positive where the tread moves towards `+x`.

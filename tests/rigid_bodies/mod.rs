@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use wheelrail::axes::{Axis, PerAxis};
 use wheelrail::contact::{
     ActiveSetScratch, ActiveSetSolver, AxisDrive, Begin, ContactError, ContactProblem, ContactState, Drift, Friction,
-    Influence, LineLayout, LineProblem, PatchFlexibility, RigidMotion, SteelLimits, SurfaceResponse, Undeformed,
+    Influence, Layer, LineLayout, LineProblem, PatchFlexibility, RigidMotion, SteelLimits, SurfaceResponse, Undeformed,
 };
 use wheelrail::multistep::TimeDerivative;
 use wheelrail::piecewise::Piecewise;
@@ -99,7 +99,7 @@ impl RigidBodies {
             share: layout.share,
             position: layout.position,
             kernel: layout.kernel,
-            layer: 0.0,
+            layer: Layer::default(),
             patch: flexibility.map(|flexibility| layout.in_patch(flexibility, line)),
             bodies: self.response(),
             membrane: [&flat, &flat],

@@ -1,4 +1,4 @@
-//! Flexibility that a contact line has for itself.
+//! Flexibility that a contact line has for itself, and that of a layer between the surfaces.
 
 use crate::analytic::HalfPlane;
 use serde::{Deserialize, Serialize};
@@ -66,5 +66,19 @@ impl LineKernel {
         let Self { tangential, normal, lateral, coupling } = self;
         let along = [tangential, normal, lateral].map(|along| [along.factor, along.reach]);
         along.as_flattened().iter().chain([coupling]).all(|v| v.is_finite())
+    }
+}
+
+/// Elastic layer between the surfaces.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Layer {
+    /// Displacement of the surfaces against each other, along and across, over the shear there \[m/Pa]; 0: there is none.
+    pub shear: f64,
+}
+
+impl Layer {
+    /// True if there is a layer.
+    pub fn gives_way(self) -> bool {
+        self.shear > 0.0
     }
 }

@@ -26,7 +26,7 @@ pub use active_set::{ActiveSetScratch, ActiveSetSolver};
 pub use error::ContactError;
 pub use flexibility::{HalfSpace, InPatch, PatchFlexibility};
 pub use friction::{Friction, FrictionLaw, Heating, SlipDependence};
-pub use kernel::{LineKernel, Logarithm};
+pub use kernel::{Layer, LineKernel, Logarithm};
 pub use layout::{LineLayout, NodeSize, PatchLayout, PatchMaterial};
 pub use limits::SteelLimits;
 pub use problem::{

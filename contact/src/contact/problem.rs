@@ -6,7 +6,7 @@
 
 use super::flexibility::InPatch;
 use super::friction::Friction;
-use super::kernel::LineKernel;
+use super::kernel::{Layer, LineKernel};
 use super::layout::NodeSize;
 use super::limits::SteelLimits;
 use super::undeformed::Undeformed;
@@ -159,8 +159,8 @@ pub struct LineProblem<'a> {
     pub size: Option<NodeSize>,
     /// Flexibility that it has for itself.
     pub kernel: LineKernel,
-    /// Flexibility of an elastic layer between the surfaces along them: displacement over shear [m/Pa]; 0: there is none.
-    pub layer: f64,
+    /// Elastic layer between the surfaces.
+    pub layer: Layer,
     /// Patch whose other lines displace it, too; `None`: it is alone but for the bodies.
     pub patch: Option<InPatch<'a>>,
     /// Linear answer of the bodies.

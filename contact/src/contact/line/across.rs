@@ -68,13 +68,11 @@ impl ContactLine<'_> {
         if self.state.directions() == 1 {
             return;
         }
-        let Self { grid, problem, iterate, state, kernel, .. } = self;
+        let Self { grid, iterate, state, kernel, .. } = self;
         let (first, displaced) = (grid.component(0) / 2, &mut iterate.displaced);
         Alone { kernel: *kernel, grid }.displace(2, first, &state.lateral, displaced);
         displaced.iter_mut().for_each(|moved| *moved *= 2.0);
-        for (i, force) in state.lateral.iter().enumerate().filter(|_| problem.layer > 0.0) {
-            displaced[first + i] += force * problem.layer / grid.width(i);
-        }
+        self.displace_layer_across();
     }
 
     /// Mean slip velocities along and across of the closed nodes [m/s], weighted with their normal forces. They are those of

@@ -41,23 +41,6 @@ impl ContactLine<'_> {
         if direction == 0 { own + by_lines + self.moved_by_layer(port) } else { own + by_lines }
     }
 
-    /// Displacement of the wheel less that of the rail by an elastic layer between them at a tangential port \[m].
-    pub fn moved_by_layer(&self, port: usize) -> f64 {
-        if self.problem.layer == 0.0 { 0.0 } else { self.state.forces[port] * self.layer_by_force(port) }
-    }
-
-    /// That displacement per unit nodal force [m/(N/m)].
-    pub fn layer_by_force(&self, port: usize) -> f64 {
-        let candidate = (port / 2).checked_sub(self.grid.guard).filter(|i| *i < self.grid.len());
-        candidate.map_or(0.0, |i| self.problem.layer / self.grid.width(i))
-    }
-
-    /// Elastic energy of the layer [J/m].
-    pub fn energy_of_layer(&self) -> f64 {
-        let energy = |i: usize| 0.5 * self.tangential(i) * self.moved_by_layer(self.grid.component(i));
-        (0..self.grid.len()).map(energy).sum()
-    }
-
     /// Moves the history of the displacement along (0) or across (1) on, and that of its part that becomes smaller where the
     /// line becomes wider.
     pub fn remember(&mut self, direction: usize) {

@@ -5,7 +5,7 @@
 //! known part of a problem with its [`hot_layers`] and the [`strength`] of the steel, [`contact_line`] the line in the
 //! present iterate, [`kinematics`] its displacements, gaps and slips, [`rows`] the same as affine functions, [`alone`]
 //! the flexibility that it has for itself, [`across`] its lateral direction, [`exchange`] how lines feel the forces of all,
-//! [`field`] what the lines of a patch do to each other, [`streamline`] the upwind differences of the slip,
+//! [`field`] what the lines of a patch do to each other, [`layer`] flexibilities besides those of the bodies, [`streamline`] the upwind differences of the slip,
 //! [`kernel`] the half-plane on the nodes, [`slopes`] the slopes against which pressure pushes,
 //! [`rim`] the frame that turns with the rim, [`zone`] the ends of the
 //! grid, [`resize`] the way to nodes of another size. Of a solution [`power`] takes the power, [`observe`] the traction,
@@ -23,6 +23,7 @@ pub(super) mod history;
 pub(super) mod hot_layers;
 pub mod kernel;
 pub(super) mod kinematics;
+pub(super) mod layer;
 pub mod observe;
 pub(super) mod power;
 pub(super) mod resize;

@@ -148,7 +148,7 @@ impl GridState {
 
     /// Choice of nodes that suits a line, as far as its surfaces and its steel are concerned.
     pub fn suited(&self, problem: &LineProblem) -> Nodes {
-        if problem.layer != 0.0 || !problem.limits.softened.is_empty() {
+        if problem.layer.gives_way() || !problem.limits.softened.is_empty() {
             Nodes::OfTheGrid
         } else if self.yielded.contains(&true) || problem.surfaces.uneven.is_some() {
             Nodes::Staying

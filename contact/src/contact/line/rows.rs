@@ -167,15 +167,7 @@ impl ContactLine<'_> {
                 constant + along.factor * weights.iter().enumerate().map(of_column).sum::<f64>()
             })),
         }
-        if self.problem.layer > 0.0 {
-            let rate = (grid.component(i), gain);
-            let stencil = upwind.stencil.map(|(at, weight)| (at, -0.5 * carried * weight));
-            for (at, factor) in [rate].into_iter().chain(stencil) {
-                if let Ok(place) = closed.binary_search_by_key(&at, |&j| grid.component(j)) {
-                    slips[place] += factor * self.layer_by_force(at);
-                }
-            }
-        }
+        self.add_slips_by_layer((i, upwind), closed, slips);
     }
 
     /// Changes of the slip at a candidate with unit normal forces at the nodes of its upwind difference: pressure strains both
