@@ -99,7 +99,7 @@ def spectrum(fmu):
     parameters = RAILWAY | {"rail.profile": f"roughness(spectrum = EN_ISO_3095, shortest = 0.02, length = {PERIOD}, seed = 1)"}
     speed = 100.0 * KMH
     table = roll(fmu, parameters, speed, PERIOD, PERIOD / SAMPLES / speed, ("rail.profile_height",))
-    frequency, level = signals.octaves(table[:, 1], table[:, 2], 1e-6, "none")
+    frequency, level = signals.octaves(table[:, 1], table[:, 2], 1e-6, "boxcar")
     known = [(1.0 / f, l) for f, l in zip(frequency, level) if 0.018 < 1.0 / f < 0.45]
     return np.array(known)
 
