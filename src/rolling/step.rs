@@ -258,7 +258,7 @@ impl Plan {
             let before = &traction.friction;
             let rise = || model.thermal.as_ref().map_or(0.0, |thermal| thermal.warming.by_friction(traction, dt));
             let friction = Friction::remembering(law, available, heating, ratio, before.coefficient, rise);
-            friction.after(dt, before.coefficient, before.slip_speed, heating)
+            friction.after(dt, (before.coefficient, state.available_friction), before.slip_speed, heating)
         });
         let friction = friction.collect();
         let rise = ratio * (state.resultant().height - demand.before.forces.height);

@@ -197,3 +197,44 @@ fn sampled_force_energy_and_moment_of_a_held_slip_agree_where_friction_falls_by_
         assert!((moment / sampled - 1.0).abs() < if load > 0.9 { 0.02 } else { 0.01 }, "{moment} for {sampled}");
     }
 }
+
+/// Largest friction over load of a wheel that coasts onto a rail of another friction and brakes there, in steps of `h`, and the
+/// friction coefficient at the end of coasting.
+fn on_another_rail(name: &str, h: f64, available: f64) -> [f64; 2] {
+    let mut config = preset(name, 8);
+    config.initial.velocity = 20.0;
+    let model = model(config);
+    let mut inputs = Inputs::rolling(model.config());
+    let mut simulation = Simulation::new(model, &inputs).unwrap();
+    inputs.drive.friction = available;
+    let mut advance = |inputs: &Inputs, time: f64| {
+        let mut used = 0.0_f64;
+        for _ in 0..(time / h).round() as usize {
+            simulation.advance(inputs, h).unwrap();
+            let o = simulation.outputs();
+            used = used.max(o.contact_force_x.abs() / o.contact_force_y);
+        }
+        [used, simulation.outputs().friction]
+    };
+    let [_, found] = advance(&inputs, 0.1);
+    inputs.drive.torque = 3e3;
+    let [used, _] = advance(&inputs, 0.1);
+    [used, found]
+}
+
+/// A wheel that hardly slips remembers its share of the friction that the rail has, not the rail that it has left.
+#[test]
+fn friction_of_the_rail_acts_where_the_wheel_rolls_onto_it_although_the_law_has_a_memory() {
+    for name in ["railway", "railway_dry", "railway_wet", "railway_low_adhesion"] {
+        for h in [5e-3, 1e-3, 1e-4] {
+            for available in [0.02, 0.05] {
+                let [used, found] = on_another_rail(name, h, available);
+                println!(
+                    "{name}, steps of {h} s, rail {available}: friction {found:.5} when it coasts, used {used:.5}"
+                );
+                assert!((found / available - 1.0).abs() < 0.01, "{found}");
+                assert!(used <= available * (1.0 + 1e-9) && used > 0.5 * available, "{used}");
+            }
+        }
+    }
+}

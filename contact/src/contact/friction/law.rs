@@ -9,7 +9,7 @@ use super::slip::SlipDependence;
 ///
 /// with the available coefficient `μ₀`, the mean slip velocity s of the surfaces in the patch and their mean
 /// temperature T, both weighted with the pressure, and the factor f of [`SlipDependence`]. With a memory the
-/// coefficient follows this local law over a sliding distance `d`: `dμ/dt = (μ(s, T) − μ) |s|/d` (after E. A. H.
+/// share of `μ₀` follows this local law over a sliding distance `d`: `dμ/dt = (μ(s, T) − μ) |s|/d` at a constant `μ₀` (after E. A. H.
 /// Vollebregt, H. M. Schuttelaars, *J. Sound Vib.* 331 (2012) 2141–2155).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrictionLaw {

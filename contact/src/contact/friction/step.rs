@@ -70,13 +70,17 @@ impl Friction {
         Self::local(FrictionLaw::CONSTANT, coefficient, Heating::default(), 0.0)
     }
 
-    /// This friction in a step of `dt` seconds from a contact with the `coefficient` \[1] and the mean `slip` velocity
-    /// [m/s], under the `heating` of that time; they matter if the law has a memory.
-    pub fn after(mut self, dt: f64, coefficient: f64, slip: f64, heating: Heating) -> Self {
+    /// This friction in a step of `dt` seconds from a contact with a `coefficient`, of which the rail had another one `available`
+    /// \[1], and the mean `slip` velocity [m/s], under the `heating` of that time; they matter if the law has a memory.
+    ///
+    /// What is remembered is the share of the available coefficient: where the wheel rolls onto another rail, all of the patch is on
+    /// it after a patch length.
+    pub fn after(mut self, dt: f64, (coefficient, available): (f64, f64), slip: f64, heating: Heating) -> Self {
         if self.law.memory_length > 0.0 {
             let FrictionLaw { softening, softening_floor, .. } = self.law;
             let hot = (1.0 - softening * heating.now.max(0.0) * coefficient).max(softening_floor);
             let local = self.available * self.law.slip.factor(slip) * hot;
+            let coefficient = if available > 0.0 { coefficient * (self.available / available) } else { local };
             self.memory = Some(Memory { reach: dt / self.law.memory_length, slip: slip.abs(), coefficient, local });
         }
         self
@@ -240,7 +244,8 @@ mod tests {
             let slip = SlipDependence::Exponential { remaining: ratio, decay: 1.5 };
             let law = FrictionLaw { slip, memory_length: length, ..LAW };
             for before in [0.05, 0.3, 0.5] {
-                let friction = Friction::local(law, 0.3, steady(theta), 0.0).after(1e-3, before, 0.7, steady(theta));
+                let friction =
+                    Friction::local(law, 0.3, steady(theta), 0.0).after(1e-3, (before, 0.3), 0.7, steady(theta));
                 let [low, high] = friction.bounds();
                 for k in -30..30 {
                     let mu = friction.coefficient(10f64.powf(f64::from(k) * 0.1));
@@ -257,7 +262,7 @@ mod tests {
         let slip = |k: u32| 1.0 + (3.0 * f64::from(k) / f64::from(n)).sin();
         (1..=n).fold(0.3, |mu, k| {
             let friction = Friction::local(law, 0.3, heating, 1.0);
-            friction.after(1.0 / f64::from(n), mu, slip(k - 1), heating).coefficient(slip(k))
+            friction.after(1.0 / f64::from(n), (mu, 0.3), slip(k - 1), heating).coefficient(slip(k))
         })
     }
 
@@ -276,9 +281,20 @@ mod tests {
         let exact = Friction::local(LAW, 0.3, heating, 0.0).coefficient(slip);
         let mut mu = 0.3;
         for _ in 0..1000 {
-            mu = Friction::local(law, 0.3, heating, 0.0).after(1e-3, mu, slip, heating).coefficient(slip);
+            mu = Friction::local(law, 0.3, heating, 0.0).after(1e-3, (mu, 0.3), slip, heating).coefficient(slip);
         }
         assert!((mu / exact - 1.0).abs() < 1e-9, "{mu} for {exact}");
+    }
+
+    /// A wheel that does not slip remembers everything, but the rail below it is another one.
+    #[test]
+    fn memory_is_that_of_the_share_of_what_the_rail_has() {
+        let law = FrictionLaw { memory_length: 0.01, ..LAW };
+        let rests = |available, before| {
+            Friction::local(law, available, steady(0.0), 0.0).after(1e-3, before, 0.0, steady(0.0)).coefficient(0.0)
+        };
+        assert!((rests(0.02, (0.24, 0.3)) - 0.016).abs() < 1e-16);
+        assert_eq!([rests(0.3, (0.0, 0.0)), rests(0.0, (0.24, 0.3))], [0.3, 0.0]);
     }
 
     #[test]
@@ -288,14 +304,14 @@ mod tests {
         let (mut mu, slip, dt) = (0.3, 2.0, 1e-3);
         for _ in 0..10 {
             mu = Friction::local(law, 0.3, Heating::default(), 0.0)
-                .after(dt, mu, slip, Heating::default())
+                .after(dt, (mu, 0.3), slip, Heating::default())
                 .coefficient(slip);
         }
         assert!((mu - (0.15 + 0.15 * (-2.0f64).exp())).abs() < 1e-14);
-        let stuck = Friction::local(law, 0.3, Heating::default(), 0.0).after(dt, mu, 0.0, Heating::default());
+        let stuck = Friction::local(law, 0.3, Heating::default(), 0.0).after(dt, (mu, 0.3), 0.0, Heating::default());
         assert_eq!(stuck.coefficient(0.0), mu);
         // In one long step it has arrived, without overshoot.
-        let long = Friction::local(law, 0.3, Heating::default(), 0.0).after(1e3, 0.9, slip, Heating::default());
+        let long = Friction::local(law, 0.3, Heating::default(), 0.0).after(1e3, (0.9, 0.3), slip, Heating::default());
         assert!((long.coefficient(slip) - 0.15).abs() < 1e-6);
     }
 }
