@@ -31,6 +31,31 @@ fn friction_power_is_traction_times_slip_and_all_of_it_becomes_heat() {
     assert!(friction > 50.0 && (heat / friction - 0.9).abs() < 1e-6);
 }
 
+/// Lines become wider and narrower with the load, also within a step.
+#[test]
+fn all_friction_of_lines_becomes_heat_in_long_steps_of_a_load_that_swings() {
+    for (name, h) in [("railway_ellipse", 5e-3_f64), ("railway_ellipse", 2e-2), ("railway_s1002_3mm", 1e-2)] {
+        let mut config = preset(name, 6);
+        config.initial.velocity = 20.0;
+        let model = model(config);
+        let mut inputs = Inputs::rolling(model.config());
+        let mut simulation = Simulation::new(model, &inputs).unwrap();
+        let load = |t: f64| 1e5 * (1.0 + 0.5 * (10.0 * PI * t).sin());
+        let (mut worst, mut divided) = (0.0_f64, 0);
+        for k in 0..(0.2 / h).round() as usize {
+            let [from, to] = [k, k + 1].map(|k| k as f64 * h);
+            inputs.drive.torque = 9e3 * (to / 0.1).min(1.0);
+            (inputs.drive.load, inputs.rate.load) = (load(from), (load(to) - load(from)) / h);
+            simulation.advance(&inputs, h).unwrap();
+            let o = simulation.outputs();
+            worst = worst.max(((o.heat_to_wheel + o.heat_to_rail) / o.friction_power - 1.0).abs());
+            divided += usize::from(o.internal_steps > 1);
+        }
+        println!("{name}, steps of {h} s, {divided} of them divided: heat off by {worst:.1e} of friction");
+        assert!(divided > 3 && worst < 1e-9, "{worst}");
+    }
+}
+
 #[test]
 fn peak_temperature_of_a_slide_does_not_depend_on_the_step() {
     let config = preset("railway", 20);

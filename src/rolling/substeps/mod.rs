@@ -229,7 +229,7 @@ struct Sums {
     counts: [u64; 3],
     /// Estimated errors of force [N/m] and temperature \[K].
     errors: [f64; 2],
-    /// Mean heat flows of every line [W/m].
+    /// Mean heat flows of every line per metre of all lines [W/m]: lines become wider and narrower.
     flows: Vec<HeatFlows>,
     pressing: Pressing,
     decisions: Decisions,
@@ -244,7 +244,7 @@ impl Sums {
         self.errors = [self.errors[0] + found.force, self.errors[1] + found.temperature];
         self.flows.resize(next.lines.len(), HeatFlows::default());
         for (flows, line) in self.flows.iter_mut().zip(&next.lines) {
-            line.thermal.iter().for_each(|thermal| flows.add(dt / h, &thermal.flows));
+            line.thermal.iter().for_each(|thermal| flows.add(line.layout.share * (dt / h), &thermal.flows));
         }
         self.pressing.add(next, dt);
     }
@@ -255,7 +255,9 @@ impl Sums {
         state.hub.brake.power = (state.audit.brake - before.audit.brake) / h;
         state.pressing = self.pressing;
         for (line, flows) in state.lines.iter_mut().zip(self.flows) {
-            line.thermal.iter_mut().for_each(|thermal| thermal.flows = flows);
+            let Some(thermal) = &mut line.thermal else { continue };
+            thermal.flows = HeatFlows::default();
+            thermal.flows.add(1.0 / line.layout.share, &flows);
         }
         [state.clock.internal_steps, state.clock.limited_steps, state.clock.iterations] = self.counts;
         let left = libm::exp(-h / FADES);
