@@ -151,6 +151,7 @@ class FmuWheelset:
 DOUBLED = (
     "model.contact_width", "model.nominal_load", "rail.restraint_stiffness", "rail.restraint_damping",
     "rail.support_stiffness", "rail.support_damping", "rail.support_mass",
+    "thermal.rim_width", "thermal.web_width", "thermal.head_width", "thermal.block_width",
 )  # fmt: skip
 
 
