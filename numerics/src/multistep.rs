@@ -51,6 +51,12 @@ impl TimeDerivative {
         self.a0 * now + self.b1 * before - self.a2 * last
     }
 
+    /// Length of the step over that of the step before \[1]; `None`: the formula does not look farther back than its beginning.
+    pub fn ratio(&self) -> Option<f64> {
+        let share = (-self.a2 / self.a1).sqrt();
+        (share > 0.0).then(|| share / (1.0 - share))
+    }
+
     /// No time derivative at all: every step is an equilibrium.
     pub fn is_stationary(&self) -> bool {
         *self == Self::default()

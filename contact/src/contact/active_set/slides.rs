@@ -10,12 +10,13 @@ use crate::contact::line::contact_line::ContactLine;
 use crate::contact::line::state::NodeStatus;
 use crate::contact::line::state::Slide;
 
-/// Takes the directions and turns of the step before, each changed once more by as much as in that step; on rough surfaces every
+/// Takes the directions and turns of the step before, each changed on as in that step; on rough surfaces every
 /// step is another one, and a stationary state follows none.
 pub(super) fn begin(line: &mut ContactLine) {
     if line.state.directions() == 1 {
         return;
     }
+    let ratio = line.problem.time.ratio().unwrap_or(1.0);
     let follows = line.given.rail_slope.is_empty() && !line.problem.time.is_stationary();
     let sum = (0..line.grid.len()).map(|i| line.shear(i)).fold([0.0; 2], |sum, q| [sum[0] + q[0], sum[1] + q[1]]);
     let mut slid = std::mem::take(&mut line.state.slid);
@@ -26,18 +27,18 @@ pub(super) fn begin(line: &mut ContactLine) {
         let direction = shear.direction.or(Polar::of(sum).direction).unwrap_or([1.0, 0.0]);
         let now = Slide { direction, turn: if shear.size > 0.0 { slip.size / shear.size } else { 0.0 } };
         let before = slid.get_mut(i).map(|before| std::mem::replace(before, now));
-        line.iterate.slides.push(before.map_or(now, |before| went_on(before, now)));
+        line.iterate.slides.push(before.map_or(now, |before| went_on(before, now, ratio)));
     }
     line.state.slid = slid;
 }
 
-/// The slide that changes as much after the present one as this has changed since the one before; a direction that turns by more
-/// than 60° is kept.
-fn went_on(before: Slide, now: Slide) -> Slide {
+/// The slide after a step that is `ratio` times as long as the one from `before` to `now`, if it goes on changing; a direction that
+/// turns by more than 60° is kept.
+fn went_on(before: Slide, now: Slide, ratio: f64) -> Slide {
     let cosine: f64 = before.direction.iter().zip(now.direction).map(|(a, b)| a * b).sum();
-    let further = Polar::of([0, 1].map(|d| 2.0 * now.direction[d] - before.direction[d]));
+    let further = Polar::of([0, 1].map(|d| now.direction[d] + ratio * (now.direction[d] - before.direction[d])));
     match further.direction.filter(|_| cosine > 0.5) {
-        Some(direction) => Slide { direction, turn: (2.0 * now.turn - before.turn).max(0.0) },
+        Some(direction) => Slide { direction, turn: (now.turn + ratio * (now.turn - before.turn)).max(0.0) },
         None => now,
     }
 }

@@ -178,7 +178,7 @@ pub(super) fn found_anew(line: &mut ContactLine) {
     line.state.status.iter_mut().filter(|s| s.is_stuck()).for_each(|s| *s = founding);
 }
 
-/// Gives nodes at which stick ends the states that they have if friction or slip changes by as much again as in the step before;
+/// Gives nodes at which stick ends the states that they have if friction or slip goes on changing as in the step before;
 /// on rough surfaces every step is another one, and a stationary state follows none.
 pub(super) fn foresee(line: &mut ContactLine) {
     let mut reserves = std::mem::take(&mut line.state.reserve);
@@ -186,10 +186,11 @@ pub(super) fn foresee(line: &mut ContactLine) {
         return;
     }
     reserves.resize(line.grid.len(), 0.0);
+    let ratio = line.problem.time.ratio().unwrap_or(1.0);
     for (i, reserve) in reserves.iter_mut().enumerate() {
         let now = self::reserve(line, i);
         let before = std::mem::replace(reserve, now);
-        if now * before > 0.0 && now * (2.0 * now - before) < 0.0 {
+        if now * before > 0.0 && now * (now + ratio * (now - before)) < 0.0 {
             line.state.status[i] = match line.state.status[i] {
                 NodeStatus::Stick if line.shear(i)[0] >= 0.0 => NodeStatus::SlipForward,
                 NodeStatus::Stick => NodeStatus::SlipBackward,
