@@ -10,7 +10,7 @@ from wheelrail import Refused, Wheel, scenario
 from wheelrail.axle import SAME, TwoWheels
 from wheelrail.files import BadFile
 from wheelrail.train import Stop, columns
-from wheelrail.wheelset import WHEELS, Drive, FmuWheelset
+from wheelrail.wheelset import WHEELS, Drive, FmuWheelset, parameters_of
 
 TRAIN = Path(__file__).parent.parent / "examples" / "train"
 AXLE = SimpleNamespace(mass=1500.0, inertia=120.0, radius=0.46)
@@ -136,6 +136,22 @@ def test_a_train_takes_two_wheels_from_its_scenario(fmu):
         assert force.min() > -0.1 * 0.75 * total * 9.86
     finally:
         run.close()
+
+
+def test_a_wheelset_as_one_fmu_is_as_warm_as_each_of_its_wheels(fmu):
+    """Block brakes heat the tread of two wheels: as one FMU they have rim, web, rail heads and blocks of both. Heat spreads sideways over
+    twice the depth from a contact of twice the width, so that it leaves the tread somewhat otherwise."""
+    rises = []
+    for alone in (False, True):
+        parameters, wheels = parameters_of(fmu, AXLE, SMALL | {"brake.tread_share": 0.9, "initial.velocity": SPEED}, alone)
+        inputs = {"control.translation": "velocity", "drive.load": LOAD * wheels / WHEELS}
+        with Wheel(fmu, parameters, inputs) as wheel:
+            for k in range(100):
+                wheel.set({"brake.torque": 4e3 * wheels / WHEELS * min(1.0, k / 50)})
+                wheel.step(0.05)
+            rises.append(np.subtract(wheel.get("temperature.wheel_bulk", "temperature.wheel_max"), wheel.get("rail.temperature")))
+    (bulk, tread), (bulk_of_one, tread_of_one) = rises
+    assert bulk_of_one > 1.0 and bulk == pytest.approx(bulk_of_one, rel=0.05) and tread == pytest.approx(tread_of_one, rel=0.12)
 
 
 def test_what_two_wheels_cannot_be_is_refused(fmu):
