@@ -88,7 +88,7 @@ fn scales(model: &RollingModel, inputs: &Inputs, state: &State) -> Drive {
 }
 
 /// Perturbation relative to the scales, and the factor by which it is reduced where the branch is left. The contact is settled
-/// to 1e-8, and jumps by as much where it decides otherwise on its way: those must lie beyond the perturbation.
+/// to 1e-9, and jumps by some 1e-8 where it decides otherwise on its way: those must lie beyond the perturbation.
 const PERTURBATION: f64 = 2e-5;
 const REDUCTION: f64 = 0.1;
 const TRIES: usize = 4;

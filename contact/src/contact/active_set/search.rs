@@ -47,7 +47,7 @@ const MOMENT_TOLERANCE: f64 = 2e-8;
 const MOST_BALANCING: usize = 4;
 /// Distance of friction from its direction over the largest of the line, from which directions go on turning, and which is none \[1].
 const TELLING: f64 = 1e-3;
-const MISSED: f64 = 1e-8;
+const MISSED: f64 = 1e-9;
 /// Such a distance from which solutions are corrected for new directions, and its part that a correction leaves at most, so that
 /// another one follows \[1].
 const TURNING: f64 = 0.05;
