@@ -51,7 +51,7 @@ def names():
 
 @pytest.fixture(scope="module")
 def expected(packages):
-    """What fmpy makes of the SSP, row by row after each step."""
+    """Rows of the SSP in fmpy, one after each step."""
     package = str(packages[1])
     values = read_ssv(package, resource="resources/train.ssv")
     table = simulate_ssp(package, stop_time=(STEPS - 0.5) * STEP, step_size=STEP, parameter_set=values)

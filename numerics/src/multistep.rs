@@ -136,6 +136,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_formula_knows_the_ratio_of_its_steps() {
+        for ratio in [0.1, 0.5, 1.0, 1.9] {
+            assert!((formula(ratio * 1e-3, 1e-3).ratio().unwrap() / ratio - 1.0).abs() < 1e-12);
+        }
+        let forgetful = [formula(1e-3, 0.0), formula(1e-3, 1e-4), TimeDerivative::default()];
+        assert!(forgetful.iter().all(|formula| formula.ratio().is_none()));
+    }
+
+    #[test]
     fn steps_that_differ_by_rounding_are_one_step() {
         let differences = (1..500).map(|k| f64::from(k + 1) * 1e-3 - f64::from(k) * 1e-3);
         assert!(differences.clone().any(|dt| dt != 1e-3));

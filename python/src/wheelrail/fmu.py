@@ -71,7 +71,8 @@ def _no_fmu(path, failure):
 def _described(path, _changed):
     """Variables by name of the FMU at a path, of which only the description is read."""
     try:
-        return scalars(fmpy.read_model_description(path, validate=False))[0]
+        with opening:
+            return scalars(fmpy.read_model_description(path, validate=False))[0]
     except Exception as failure:  # whatever zip, XML and fmpy say
         raise _no_fmu(path, failure) from failure
 

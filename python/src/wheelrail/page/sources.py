@@ -24,7 +24,7 @@ POINT = re.compile(r"^(?P<of>profile|line)\.(?P<name>\w+)\[(?P<point>\d+)\]$")
 
 
 def read(path, fmu=None):
-    """What a file or directory holds: a `Run`, or a dict of stops, name to table. `fmu` is a path: what its
+    """Content of a file or directory: a `Run`, or a dict of stops, name to table. `fmu` is a path: what its
     description says of units and meaning holds for a CSV without units."""
     path = Path(path)
     if path.is_dir():
